@@ -1,0 +1,51 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <opencv2/core.hpp>
+
+#include "core/intrinsics.hpp"
+#include "core/settings.hpp"
+#include "core/worker_pool.hpp"
+
+namespace saccade {
+
+/// What a fixation's proto-object is like in space; of the `proto` selector only.
+struct ProtoObject {
+  int pixels = 0;           ///< of its mask
+  cv::Point3f centroid_mm;  ///< mean of its points, camera frame
+  cv::Point3f extent_mm;    ///< side lengths of its axis-aligned box in camera frame
+};
+
+/// One attention point.
+struct Fixation {
+  int row = 0, col = 0;      ///< pixel of level 0
+  float saliency = 0;        ///< of the master map at that pixel
+  cv::Point3f position_mm;   ///< the point there, camera frame; (0,0,0) = no reading there
+  ProtoObject proto_object;  ///< pixels = 0: none was grown
+};
+
+/// The attention points of one frame, most salient first.
+struct Attention {
+  std::vector<Fixation> fixations;
+  std::string ended_early;  ///< why there are fewer than were asked for; empty = there are not
+  cv::Mat1w masks;  ///< H x W, rank (1..) of the fixation whose proto-object holds the pixel, 0 = none
+};
+
+/// Chooses attention points in a saliency map (SPEC section 4). Keeps memory between frames.
+/// Thread safety: one select() at a time per object.
+class AttentionSelector {
+ public:
+  virtual ~AttentionSelector() = default;
+
+  /// saliency: H x W, finite, >= 0. depth_mm: H x W, 0 = no reading. The same input gives the same output.
+  virtual void select(const cv::Mat1f& saliency, const cv::Mat1f& depth_mm, const Intrinsics& camera,
+                      Attention& attention) = 0;
+};
+
+/// The selector that `settings` asks for.
+std::unique_ptr<AttentionSelector> make_selector(const Settings& settings);
+
+}  // namespace saccade

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+namespace saccade {
+
+/// The exit statuses of the program (SPEC section 7).
+enum class ExitStatus {
+  done = 0,
+  failed = 1,      ///< failed while running: device lost, disk full
+  usage = 2,       ///< the command line or the configuration is wrong
+  unreadable = 3,  ///< the input cannot be read
+};
+
+/// A failure of the environment or of the input, made for a person: what failed, on what, what to try.
+/// A caller's mistake in the code is std::invalid_argument instead.
+class Error : public std::runtime_error {
+ public:
+  /// what() becomes the one line "what: on (try)"; `on` and `hint` may be empty. Line breaks become blanks.
+  Error(ExitStatus status, const std::string& what, const std::string& on, const std::string& hint);
+
+  ExitStatus status() const noexcept { return status_; }
+
+ private:
+  ExitStatus status_;
+};
+
+/// Shorthands for the three kinds of failure.
+Error failed(const std::string& what, const std::string& on, const std::string& hint);
+Error usage_error(const std::string& what, const std::string& on, const std::string& hint);
+Error unreadable(const std::string& what, const std::string& on, const std::string& hint);
+
+}  // namespace saccade

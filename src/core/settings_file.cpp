@@ -1,0 +1,48 @@
+#include <vector>
+
+#include <fmt/format.h>
+#include <toml++/toml.h>
+
+#include "core/error.hpp"
+#include "core/file.hpp"
+#include "core/settings.hpp"
+
+namespace saccade {
+namespace {
+
+// The text of a TOML value as the command line would have it; an array becomes a list with commas.
+std::string as_text(const toml::node& node) {
+  if (const auto* text = node.as_string()) return text->get();
+  if (const auto* number = node.as_integer()) return fmt::format("{}", number->get());
+  if (const auto* number = node.as_floating_point()) return fmt::format("{}", number->get());
+  if (const auto* truth = node.as_boolean()) return truth->get() ? "true" : "false";
+  if (const auto* array = node.as_array()) {
+    std::vector<std::string> list;
+    for (const toml::node& element : *array) list.push_back(as_text(element));
+    return fmt::format("{}", fmt::join(list, ","));
+  }
+  throw usage_error("not a value", "", "a number, a string, true, false or a list is expected");
+}
+
+}  // namespace
+
+void load_settings(Settings& settings, const std::string& path) {
+  const auto bytes = read_file(path, 1u << 20);
+  const std::string hint = "config/default.toml lists all keys";
+  toml::table table;
+  try {
+    table = toml::parse(std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()), path);
+  } catch (const toml::parse_error& error) {
+    throw usage_error("not valid TOML",
+                      fmt::format("{}:{}: {}", path, error.source().begin.line, error.description()), hint);
+  }
+  for (const auto& [key, node] : table) {
+    try {
+      apply_setting(settings, std::string(key.str()), as_text(node));
+    } catch (const Error& error) {
+      throw usage_error(error.what(), fmt::format("{}:{}", path, node.source().begin.line), hint);
+    }
+  }
+}
+
+}  // namespace saccade

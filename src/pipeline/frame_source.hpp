@@ -1,0 +1,59 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <opencv2/core.hpp>
+
+#include "core/frame.hpp"
+
+namespace saccade {
+
+/// What a source says of itself when it is opened.
+struct SourceInfo {
+  std::string uri;                          ///< as the user named it
+  std::string kind;                         ///< "synthetic", "folder", "tum", "oni", ...
+  cv::Size size;                            ///< of every frame: W x H
+  std::optional<std::int64_t> frame_count;  ///< unknown for live sensors
+  double rate_hz = 0;                       ///< nominal; 0 = unknown
+  Intrinsics intrinsics;
+  bool live = false;               ///< frames come when they come; nothing can be read twice
+  std::vector<std::string> notes;  ///< what the user should know: gaps, guesses; one line each
+};
+
+enum class ReadStatus {
+  frame,     ///< `frame` is filled
+  end,       ///< there is nothing more
+  timeout,   ///< nothing came in time; try again (live sources only)
+  rejected,  ///< this frame cannot be used; `reason` says why, the next may be good
+};
+
+struct ReadResult {
+  ReadStatus status = ReadStatus::end;
+  std::string reason;
+};
+
+/// Where frames come from: a sensor, a recording, a folder, a synthetic scene.
+/// Thread safety: one thread at a time calls read() and seek(), except interrupt(), which any thread may
+/// call.
+class FrameSource {
+ public:
+  virtual ~FrameSource() = default;
+
+  virtual const SourceInfo& info() const = 0;
+
+  /// Reads the next frame into `frame`, reusing its memory; on return all of its fields are this frame's.
+  /// Waits at most `timeout`, which matters to live sources only. Throws Error if reading cannot go on.
+  virtual ReadResult read(Frame& frame, std::chrono::milliseconds timeout) = 0;
+
+  /// The next read() gives frame `index`, or end if there is none. Throws std::logic_error for a live source.
+  virtual void seek(std::int64_t index) = 0;
+
+  /// Makes a read() that waits return soon, with timeout.
+  virtual void interrupt() noexcept {}
+};
+
+}  // namespace saccade

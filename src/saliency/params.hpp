@@ -1,0 +1,27 @@
+#pragma once
+
+#include <vector>
+
+#include <opencv2/core.hpp>
+
+#include "core/settings.hpp"
+
+namespace saccade {
+
+/// What the operator needs to know besides the depth image and the camera.
+struct Symmetry3dParams {
+  int kernel = 15;                      ///< k, px at every level; 3..127; window side 2*floor(k/2)+1
+  int first_level = 0, last_level = 4;  ///< L1..L2 of Eq. (15)
+  LengthScale length_scale = LengthScale::relative;
+  LevelNormalisation normalisation = LevelNormalisation::none;
+
+  static Symmetry3dParams from(const Settings& settings);
+};
+
+/// Size of pyramid level `level` of an image: level l+1 holds the even rows and columns of level l.
+cv::Size level_size(cv::Size image, int level);
+
+/// Throws Error (usage) if the last level would have a side below 8 px, naming the deepest that fits.
+void check_levels(cv::Size image, const Symmetry3dParams& params);
+
+}  // namespace saccade

@@ -1,0 +1,65 @@
+#include "core/file.hpp"
+
+#include <filesystem>
+#include <fstream>
+
+#include <gtest/gtest.h>
+
+#include "core/error.hpp"
+
+namespace saccade {
+namespace {
+
+namespace fs = std::filesystem;
+
+class FileTest : public ::testing::Test {
+ protected:
+  fs::path folder_ =
+      fs::path(::testing::TempDir()) /
+      (std::string("saccade_file_") + ::testing::UnitTest::GetInstance()->current_test_info()->name());
+  void SetUp() override { fs::create_directories(folder_); }
+  void TearDown() override { fs::remove_all(folder_); }
+};
+
+std::string content(const fs::path& path) {
+  const auto bytes = read_file(path);
+  return {bytes.begin(), bytes.end()};
+}
+
+TEST_F(FileTest, WritesWholeFilesAndLeavesNoTemporary) {
+  write_file(folder_ / "a", std::string_view("one"));
+  write_file(folder_ / "a", std::string_view("two"));
+  EXPECT_EQ(content(folder_ / "a"), "two");
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()), 1);
+}
+
+TEST_F(FileTest, FullDiskIsAnErrorThatNamesTheFile) {
+  fs::create_symlink("/dev/full", folder_ / "a");
+  try {
+    write_file(folder_ / "a", std::string_view("one"));
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.status(), ExitStatus::failed);
+    EXPECT_NE(std::string(error.what()).find("No space left"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find((folder_ / "a").string()), std::string::npos);
+  }
+  LineFile lines(folder_ / "a");
+  EXPECT_THROW(lines.append("x"), Error);
+}
+
+TEST_F(FileTest, LinesAreThereAsSoonAsTheyAreAppended) {
+  LineFile lines(folder_ / "l");
+  lines.append("one");
+  EXPECT_EQ(content(folder_ / "l"), "one\n");
+  lines.append("two");
+  EXPECT_EQ(content(folder_ / "l"), "one\ntwo\n");
+}
+
+TEST_F(FileTest, MissingAndTooLargeFilesAreUnreadable) {
+  EXPECT_THROW(read_file(folder_ / "none"), Error);
+  write_file(folder_ / "a", std::string_view("12345"));
+  EXPECT_THROW(read_file(folder_ / "a", 4), Error);
+}
+
+}  // namespace
+}  // namespace saccade

@@ -1,0 +1,107 @@
+#include "core/settings.hpp"
+
+#include <filesystem>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/error.hpp"
+#include "core/file.hpp"
+
+namespace saccade {
+namespace {
+
+using ::testing::HasSubstr;
+
+std::string error_of(const std::function<void()>& call, ExitStatus expected = ExitStatus::usage) {
+  try {
+    call();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.status(), expected);
+    return error.what();
+  }
+  return "";
+}
+
+std::string load(Settings& settings, const std::string& toml) {
+  const auto path =
+      std::filesystem::path(::testing::TempDir()) /
+      (std::string("saccade_") + ::testing::UnitTest::GetInstance()->current_test_info()->name() + ".toml");
+  write_file(path, toml);
+  return error_of([&] { load_settings(settings, path.string()); });
+}
+
+TEST(Settings, PrintAndParseAreInverse) {
+  Settings changed;
+  apply_setting(changed, "kernel", "21");
+  apply_setting(changed, "levels", "1..3");
+  apply_setting(changed, "intrinsics", "500,501.5,320,240");
+  apply_setting(changed, "dump", "levels,masks");
+  for (const Settings& settings : {Settings{}, changed}) {
+    Settings copy;
+    for (const SettingSpec& spec : setting_specs())
+      apply_setting(copy, std::string(spec.key), spec.print(settings));
+    for (const SettingSpec& spec : setting_specs())
+      EXPECT_EQ(spec.print(copy), spec.print(settings)) << spec.key;
+  }
+}
+
+TEST(Settings, KernelIsChecked) {
+  Settings s;
+  for (const char* bad : {"2", "128", "15.5", "", "abc", "-3", "15 "})
+    EXPECT_THAT(error_of([&] { apply_setting(s, "kernel", bad); }), HasSubstr("3..127")) << bad;
+  EXPECT_EQ(s.kernel, 15);
+  apply_setting(s, "kernel", "127");
+  EXPECT_EQ(s.kernel, 127);
+}
+
+TEST(Settings, LevelsAreARangeOrOneNumber) {
+  Settings s;
+  apply_setting(s, "levels", "2");
+  EXPECT_EQ(s.first_level, 2);
+  EXPECT_EQ(s.last_level, 2);
+  for (const char* bad : {"3..1", "..", "0..", "-1..3", "0..13", "a..b"})
+    EXPECT_NE(error_of([&] { apply_setting(s, "levels", bad); }), "") << bad;
+}
+
+TEST(Settings, IntrinsicsMustBeACamera) {
+  Settings s;
+  for (const char* bad : {"1,2,3", "nan,525,320,240", "-525,525,320,240", "0,1,2,3", "inf,1,1,1", "a,b,c,d"})
+    EXPECT_THAT(error_of([&] { apply_setting(s, "intrinsics", bad); }), HasSubstr("fx,fy,cx,cy")) << bad;
+}
+
+TEST(Settings, UnknownKeyNamesTheNearest) {
+  Settings s;
+  EXPECT_THAT(error_of([&] { apply_setting(s, "kernal", "15"); }), HasSubstr("did you mean kernel?"));
+}
+
+TEST(Settings, TomlFileIsReadOverTheDefaults) {
+  Settings s;
+  EXPECT_EQ(load(s,
+                 "kernel = 21\nlevels = \"0..2\"\nlength-scale = 'millimetre'\ndump = [\"maps\", \"masks\"]\n"
+                 "quiet = true\nfoa = 32\n"),
+            "");
+  EXPECT_EQ(s.kernel, 21);
+  EXPECT_EQ(s.last_level, 2);
+  EXPECT_EQ(s.length_scale, LengthScale::millimetre);
+  EXPECT_EQ(s.dump, (std::set<std::string>{"maps", "masks"}));
+  EXPECT_TRUE(s.quiet);
+  EXPECT_EQ(s.foa, 32);
+}
+
+TEST(Settings, TomlErrorsNameTheLine) {
+  Settings s;
+  EXPECT_THAT(load(s, "kernel = 15\nkernle = 3\n"), HasSubstr(".toml:2"));
+  EXPECT_THAT(load(s, "kernel = 200\n"), HasSubstr("3..127"));
+  EXPECT_THAT(load(s, "kernel = = 3\n"), HasSubstr("not valid TOML"));
+  EXPECT_THAT(load(s, "[kernel]\nk = 3\n"), HasSubstr(".toml:1"));
+}
+
+TEST(Settings, MissingFileIsUnreadable) {
+  Settings s;
+  EXPECT_THAT(error_of([&] { load_settings(s, "/nowhere/x.toml"); }, ExitStatus::unreadable),
+              HasSubstr("/nowhere/x.toml"));
+}
+
+}  // namespace
+}  // namespace saccade
