@@ -97,6 +97,31 @@ TEST(Settings, TomlErrorsNameTheLine) {
   EXPECT_THAT(load(s, "[kernel]\nk = 3\n"), HasSubstr(".toml:1"));
 }
 
+std::string config_file(const char* name) { return std::string(SACCADE_SOURCE_DIR "/config/") + name; }
+
+TEST(Settings, DefaultTomlListsEveryKeyWithItsDefault) {
+  const auto bytes = read_file(config_file("default.toml"));
+  const std::string text(bytes.begin(), bytes.end());
+  for (const SettingSpec& spec : setting_specs())
+    EXPECT_THAT(text, HasSubstr("\n" + std::string(spec.key) + " = ")) << "not documented";
+  Settings loaded;
+  for (const SettingSpec& spec : setting_specs())  // start from something else, so that a missing line shows
+    if (spec.key == "kernel") spec.parse(loaded, "99");
+  load_settings(loaded, config_file("default.toml"));
+  for (const SettingSpec& spec : setting_specs())
+    EXPECT_EQ(spec.print(loaded), spec.print(Settings{})) << spec.key;
+}
+
+TEST(Settings, PaperTomlIsThePapersSetUp) {
+  Settings s;
+  load_settings(s, config_file("paper.toml"));
+  EXPECT_EQ(s.kernel, 15);
+  EXPECT_EQ(s.first_level, 0);
+  EXPECT_EQ(s.last_level, 4);
+  EXPECT_EQ(s.length_scale, LengthScale::millimetre);
+  EXPECT_EQ(s.selector, Selector::wta);
+}
+
 TEST(Settings, MissingFileIsUnreadable) {
   Settings s;
   EXPECT_THAT(error_of([&] { load_settings(s, "/nowhere/x.toml"); }, ExitStatus::unreadable),

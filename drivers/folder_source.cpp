@@ -1,0 +1,142 @@
+#include "drivers/folder_source.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include <fmt/format.h>
+#include <opencv2/imgcodecs.hpp>
+
+#include "core/error.hpp"
+#include "core/file.hpp"
+#include "core/png.hpp"
+#include "drivers/folder_listing.hpp"
+
+namespace saccade {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr int kSmallestSide = 8;
+
+// Why a depth image of this kind cannot be used; empty if it can.
+std::string depth_problem(const PngHeader& header) {
+  const auto [width, height] = header.size;
+  if (header.bits != 16 || header.channels != "gray")
+    return fmt::format("{}-bit {} is not 16-bit gray depth", header.bits, header.channels);
+  if (width < kSmallestSide || height < kSmallestSide)
+    return fmt::format("{}x{} is smaller than {} pixels a side", width, height, kSmallestSide);
+  return "";
+}
+
+std::string plain(cv::Size size) { return fmt::format("{}x{}", size.width, size.height); }
+
+class FolderSource : public FrameSource {
+ public:
+  explicit FolderSource(const fs::path& folder) : listing_(list_folder(folder)) {
+    info_.uri = folder.string();
+    info_.kind = listing_.kind;
+    info_.size = first_size(folder);
+    info_.frame_count = static_cast<std::int64_t>(listing_.entries.size());
+    info_.rate_hz = listing_.rate_hz;
+    info_.notes = listing_.notes;
+    const auto camera = read_meta(folder);
+    info_.intrinsics = camera ? *camera : Intrinsics::guess_for(info_.size);
+  }
+
+  const SourceInfo& info() const override { return info_; }
+
+  void seek(std::int64_t index) override { next_ = index; }
+
+  ReadResult read(Frame& frame, std::chrono::milliseconds) override {
+    if (next_ < 0 || next_ >= info_.frame_count) return {ReadStatus::end, ""};
+    const FolderEntry& entry = listing_.entries[static_cast<std::size_t>(next_)];
+    frame.index = next_++;
+    frame.timestamp_us = entry.timestamp_us;
+    frame.name = entry.name;
+    frame.intrinsics = info_.intrinsics;
+    frame.truth.normals.release();
+    fs::path current = entry.depth;
+    try {
+      read_depth(current, frame);
+      read_colour(current = entry.colour, frame);
+      read_labels(current = entry.label, frame);
+    } catch (const std::runtime_error& error) {  // an Error, or the reason of a decoder
+      return {ReadStatus::rejected, fmt::format("{}: {}", current.filename().string(), error.what())};
+    }
+    return {ReadStatus::frame, ""};
+  }
+
+ private:
+  // Frames are all of one size: that of the first whose header makes sense.
+  cv::Size first_size(const fs::path& folder) const {
+    std::string first_problem;
+    for (const FolderEntry& entry : listing_.entries) {
+      std::string problem;
+      try {
+        const PngHeader header = read_png_header(read_file(entry.depth));
+        problem = depth_problem(header);
+        if (problem.empty()) return header.size;
+      } catch (const std::runtime_error& error) {
+        problem = error.what();
+      }
+      if (first_problem.empty())
+        first_problem = fmt::format("{}: {}", entry.depth.filename().string(), problem);
+    }
+    throw unreadable("no usable depth image; " + first_problem, folder.string(),
+                     "depth must be 16-bit gray PNG in mm, 8 to 8192 pixels a side");
+  }
+
+  void read_depth(const fs::path& path, Frame& frame) const {
+    const auto bytes = read_file(path);
+    const PngHeader header = read_png_header(bytes);
+    if (const std::string problem = depth_problem(header); !problem.empty())
+      throw std::runtime_error(problem);
+    if (header.size != info_.size)
+      throw std::runtime_error(
+          fmt::format("{}, but the first frame is {}", plain(header.size), plain(info_.size)));
+    decode_png(bytes).convertTo(frame.depth_mm, CV_32F, listing_.mm_per_unit);
+  }
+
+  void check_size(cv::Size size) const {
+    if (size != info_.size)
+      throw std::runtime_error(fmt::format("{}, but the depth is {}", plain(size), plain(info_.size)));
+  }
+
+  void read_colour(const fs::path& path, Frame& frame) const {
+    frame.colour.release();
+    if (path.empty()) return;
+    const auto bytes = read_file(path);
+    cv::Mat image;
+    if (path.extension() == ".png") {
+      check_size(read_png_header(bytes).size);
+      image = decode_png(bytes);
+      if (image.depth() == CV_16U) image.convertTo(image, CV_8U, 1.0 / 256);
+      if (image.channels() == 1) cv::merge(std::vector<cv::Mat>(3, image), image);
+    } else if (!bytes.empty()) {
+      image = cv::imdecode(bytes, cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION);
+    }
+    if (image.empty()) throw std::runtime_error("not a sound image");
+    check_size(image.size());
+    frame.colour = image;
+  }
+
+  void read_labels(const fs::path& path, Frame& frame) const {
+    frame.truth.labels.release();
+    if (path.empty()) return;
+    const cv::Mat image = decode_png(read_file(path));
+    if (image.channels() != 1) throw std::runtime_error("labels must be gray or palette");
+    check_size(image.size());
+    image.convertTo(frame.truth.labels, CV_16U);
+  }
+
+  FolderListing listing_;
+  SourceInfo info_;
+  std::int64_t next_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<FrameSource> open_folder(const fs::path& folder) {
+  return std::make_unique<FolderSource>(folder);
+}
+
+}  // namespace saccade

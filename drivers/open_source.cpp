@@ -1,0 +1,17 @@
+#include "drivers/open_source.hpp"
+
+#include <filesystem>
+
+#include "core/error.hpp"
+#include "drivers/folder_source.hpp"
+
+namespace saccade {
+
+std::unique_ptr<FrameSource> open_source(const std::string& uri) {
+  if (std::filesystem::is_directory(uri)) return open_folder(uri);
+  if (std::filesystem::exists(uri))
+    throw unreadable("not a kind of file that can be read", uri, "a folder of images is expected");
+  throw unreadable("no such source", uri, "a folder of images, or synthetic:NAME");
+}
+
+}  // namespace saccade

@@ -1,0 +1,79 @@
+#include <cstdio>
+#include <exception>
+#include <functional>
+#include <new>
+#include <string>
+#include <vector>
+
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
+#include <CLI/CLI.hpp>
+
+#include "app/options.hpp"
+#include "app/run_command.hpp"
+#include "core/error.hpp"
+#include "core/version.hpp"
+
+namespace {
+
+using saccade::ExitStatus;
+
+void set_up_log(const saccade::Settings& settings) {
+  spdlog::set_level(settings.quiet ? spdlog::level::warn : spdlog::level::from_str(settings.log_level));
+}
+
+int report(const std::string& line, ExitStatus status) {
+  std::fprintf(stderr, "saccade: %s\n", line.c_str());
+  return static_cast<int>(status);
+}
+
+int run_program(int argc, char** argv) {
+  spdlog::set_default_logger(spdlog::stderr_color_mt("saccade"));
+  spdlog::set_pattern("%n: %l: %v");
+
+  CLI::App app{"Saccade: where a robot should look, from depth images, by local 3D symmetry"};
+  app.set_version_flag("--version", std::string("saccade ") + saccade::kVersion);
+  app.require_subcommand(1);
+  std::function<void()> action;
+
+  CLI::App& run =
+      *app.add_subcommand("run", "process a source without a window; write maps, overlays, fixations");
+  saccade::RunArguments arguments{{}, {}, {argv, argv + argc}};
+  run.add_option("SOURCE", arguments.source, "a folder of images, or synthetic:NAME?key=value&...")
+      ->required();
+  run.add_option("--out", arguments.out, "folder to write to, made if it is not there")
+      ->required()
+      ->type_name("DIR");
+  const saccade::SettingsOptions options(run);
+  run.callback([&] {
+    action = [&] {
+      const saccade::Settings settings = options.resolve();
+      set_up_log(settings);
+      saccade::run(arguments, settings);
+    };
+  });
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& success) {  // --help, --version
+    return app.exit(success);
+  } catch (const CLI::ParseError& error) {
+    return report(std::string(error.what()) + " (see saccade --help)", ExitStatus::usage);
+  }
+  action();
+  return static_cast<int>(ExitStatus::done);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run_program(argc, argv);
+  } catch (const saccade::Error& error) {
+    return report(error.what(), error.status());
+  } catch (const std::bad_alloc&) {
+    return report("out of memory (try a smaller image or fewer --workers)", ExitStatus::failed);
+  } catch (const std::exception& error) {
+    return report(std::string("unexpected: ") + error.what(), ExitStatus::failed);
+  }
+}

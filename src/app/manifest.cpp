@@ -1,0 +1,91 @@
+#include "app/manifest.hpp"
+
+#include <cmath>
+
+#include <nlohmann/json.hpp>
+
+#include "core/version.hpp"
+
+namespace saccade {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+double rounded(double value) { return std::round(value * 1000) / 1000; }
+
+Json ledger_json(const Ledger& ledger) {
+  return {{"captured", ledger.captured},
+          {"processed", ledger.processed},
+          {"dropped", ledger.dropped},
+          {"rejected", ledger.rejected}};
+}
+
+Json intrinsics_json(const Intrinsics& camera) {
+  return {{"fx", camera.fx},
+          {"fy", camera.fy},
+          {"cx", camera.cx},
+          {"cy", camera.cy},
+          {"from", to_string(camera.origin)}};
+}
+
+// The keys of a TOML file, so that these are the parameters to use again.
+Json settings_json(const Settings& settings) {
+  Json json = Json::object();
+  for (const SettingSpec& spec : setting_specs()) {
+    const std::string text = spec.print(settings);
+    Json value = Json::parse(text, nullptr, false);  // numbers and truth values as such
+    json[std::string(spec.key)] = value.is_number() || value.is_boolean() ? value : Json(text);
+  }
+  return json;
+}
+
+Json stages_json(const StageStatistics& stages) {
+  Json json = Json::object();
+  for (std::size_t i = 0; i < kStageNames.size(); ++i) {
+    const DurationHistogram& times = stages[static_cast<Stage>(i)];
+    json[std::string(kStageNames[i])] = {{"mean", rounded(times.mean_ms())},
+                                         {"p50", rounded(times.percentile_ms(0.50))},
+                                         {"p95", rounded(times.percentile_ms(0.95))},
+                                         {"max", rounded(times.max_ms())}};
+  }
+  return json;
+}
+
+Json source_json(const SourceInfo& source) {
+  Json json = {{"uri", source.uri},          {"kind", source.kind},
+               {"width", source.size.width}, {"height", source.size.height},
+               {"frames", nullptr},          {"rate_hz", rounded(source.rate_hz)},
+               {"notes", source.notes}};
+  if (source.frame_count) json["frames"] = *source.frame_count;
+  return json;
+}
+
+}  // namespace
+
+Json summary_json(const RunReport& report) {
+  const double rate = report.wall_s > 0 ? static_cast<double>(report.ledger.processed) / report.wall_s : 0;
+  Json json = {{"program", "saccade"}, {"version", kVersion}, {"status", report.status}};
+  if (!report.error.empty()) json["error"] = report.error;
+  json["out"] = report.out;
+  json["frames"] = ledger_json(report.ledger);
+  json["wall_s"] = rounded(report.wall_s);
+  json["frames_per_s"] = rounded(rate);
+  json["stages_ms"] = stages_json(report.stages);
+  return json;
+}
+
+Json manifest_json(const RunReport& report) {
+  Json json = summary_json(report);
+  json["command_line"] = report.command_line;
+  json["source"] = source_json(report.source);
+  json["intrinsics"] = intrinsics_json(report.settings.intrinsics.value_or(report.source.intrinsics));
+  json["settings"] = settings_json(report.settings);
+  json["workers"] = report.workers;
+  Json rejected = Json::array();
+  for (const auto& [index, reason] : report.rejected)
+    rejected.push_back({{"frame", index}, {"reason", reason}});
+  json["rejected"] = rejected;
+  return json;
+}
+
+}  // namespace saccade

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "core/settings.hpp"
+#include "pipeline/frame_source.hpp"
+#include "pipeline/ledger.hpp"
+#include "pipeline/stage_statistics.hpp"
+
+namespace saccade {
+
+/// What a run was and what became of it; manifest.json and the summary of --json.
+struct RunReport {
+  std::string status = "running";  ///< running, done, interrupted or failed
+  std::string error;               ///< the line that was printed, if it failed
+  std::vector<std::string> command_line;
+  SourceInfo source;
+  Settings settings;
+  int workers = 0;  ///< as resolved
+  Ledger ledger;
+  std::vector<std::pair<std::int64_t, std::string>> rejected;  ///< source index and reason
+  StageStatistics stages;
+  double wall_s = 0;
+  std::string out;
+};
+
+/// The whole report: manifest.json.
+nlohmann::ordered_json manifest_json(const RunReport& report);
+
+/// Its short form: what --json prints.
+nlohmann::ordered_json summary_json(const RunReport& report);
+
+}  // namespace saccade

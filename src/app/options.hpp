@@ -1,0 +1,30 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "core/settings.hpp"
+
+namespace saccade {
+
+/// The settings as options of one subcommand: every SettingSpec as --key, and --config FILE. The file is read
+/// first and the options are laid over it, wherever they stand on the command line.
+class SettingsOptions {
+ public:
+  /// Adds the options to `command`, which must not outlive this.
+  explicit SettingsOptions(CLI::App& command);
+
+  /// After parsing: defaults, then the file, then the options. Throws Error (usage or unreadable).
+  Settings resolve() const;
+
+ private:
+  std::string config_;
+  std::vector<std::pair<std::string, std::string>>
+      given_;  // key and value, in their order on the command line
+};
+
+}  // namespace saccade

@@ -1,0 +1,51 @@
+#include "app/progress.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+
+#include <fmt/format.h>
+
+namespace saccade {
+namespace {
+
+std::string bar(double share) {
+  constexpr int kWidth = 24;
+  const int full = static_cast<int>(share * kWidth + 0.5);
+  std::string text(kWidth, '.');
+  std::fill_n(text.begin(), full, '#');
+  return fmt::format("[{}] ", text);
+}
+
+}  // namespace
+
+std::string progress_text(std::int64_t done, std::optional<std::int64_t> total, double elapsed_s) {
+  const double rate = elapsed_s > 0 ? static_cast<double>(done) / elapsed_s : 0;
+  if (!total || *total <= 0) return fmt::format("{} frames, {:.1f}/s", done, rate);
+  std::string text = fmt::format("{} of {} frames, {:.1f}/s", done, *total, rate);
+  if (rate > 0) text += fmt::format(", {:.0f} s left", static_cast<double>(*total - done) / rate);
+  return text;
+}
+
+Progress::Progress(bool wanted, std::optional<std::int64_t> total)
+    : shown_(wanted && ::isatty(STDERR_FILENO) == 1), total_(total) {}
+
+Progress::~Progress() {
+  if (shown_) fmt::print(stderr, "\r\033[K");
+}
+
+void Progress::update(std::int64_t done) {
+  if (!shown_) return;
+  const auto now = Clock::now();
+  const bool complete = total_ && done >= *total_;
+  if (now - last_ < std::chrono::milliseconds(100) && !complete) return;
+  last_ = now;
+  const double elapsed_s = std::chrono::duration<double>(now - begin_).count();
+  const std::string picture =
+      total_ && *total_ > 0 ? bar(static_cast<double>(done) / static_cast<double>(*total_)) : "";
+  fmt::print(stderr, "\r\033[K{}{}", picture, progress_text(done, total_, elapsed_s));
+  std::fflush(stderr);
+}
+
+}  // namespace saccade

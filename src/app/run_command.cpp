@@ -1,0 +1,221 @@
+#include "app/run_command.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <mutex>
+#include <optional>
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+#include <nlohmann/json.hpp>
+#include <opencv2/core.hpp>
+
+#include "app/fixations_json.hpp"
+#include "app/frame_writer.hpp"
+#include "app/interrupt.hpp"
+#include "app/manifest.hpp"
+#include "app/progress.hpp"
+#include "app/writer_pool.hpp"
+#include "core/error.hpp"
+#include "core/file.hpp"
+#include "drivers/open_source.hpp"
+#include "pipeline/pipeline.hpp"
+
+namespace saccade {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr int kSlotsInFlight = 4;  // one captured, one computed, one waiting at either side
+constexpr int kWriterThreads = 2;
+
+// How many frames will come, if that can be known.
+std::optional<std::int64_t> expected_frames(const SourceInfo& source, const Settings& settings) {
+  std::optional<std::int64_t> expected;
+  if (source.frame_count)
+    expected = std::max<std::int64_t>(
+        0, (*source.frame_count - settings.start + settings.every - 1) / settings.every);
+  if (settings.frames > 0) expected = std::min(expected.value_or(settings.frames), settings.frames);
+  return expected;
+}
+
+void make_folder(const fs::path& folder) {
+  std::error_code code;
+  fs::create_directories(folder, code);
+  if (code || !fs::is_directory(folder))
+    throw failed("cannot make the output folder" + (code ? ": " + code.message() : std::string()),
+                 folder.string(), "choose a folder that can be written with --out");
+}
+
+// One `saccade run`, from open source to manifest.
+class Run {
+ public:
+  Run(const RunArguments& arguments, const Settings& settings) : folder_(arguments.out) {
+    report_.command_line = arguments.command_line;
+    report_.settings = settings;
+    report_.workers = worker_count(settings);
+    report_.out = arguments.out;
+  }
+
+  void execute(const std::string& uri) {
+    Interrupt interrupt([this] { stop(); });
+    auto source = open_source(uri);
+    report_.source = source->info();
+    tell_notes();
+    check_levels(report_.source.size, Symmetry3dParams::from(report_.settings));
+    check_start();
+    auto processor = make_processor(report_.settings);
+    make_folder(folder_);
+    write_manifest();
+    try {
+      process(std::move(source), std::move(processor));
+      check_any_processed();
+      report_.status = interrupt.happened() ? "interrupted" : "done";
+    } catch (const std::exception& error) {
+      report_.status = "failed";
+      report_.error = error.what();
+      write_manifest_if_possible();
+      throw;
+    }
+    write_manifest();
+    tell_summary();
+  }
+
+ private:
+  void process(std::unique_ptr<FrameSource> source, std::unique_ptr<FrameProcessor> processor) {
+    const Settings& settings = report_.settings;
+    const auto begin = std::chrono::steady_clock::now();
+    const int writers = settings.dump.empty() ? 0 : kWriterThreads;
+    PipelineOptions options;
+    options.selection = {settings.start, settings.every, settings.frames};
+    options.intrinsics = settings.intrinsics;
+    options.slots = kSlotsInFlight + writers;
+    options.on_rejected = [this](std::int64_t index, const std::string& reason) { reject(index, reason); };
+
+    LineFile fixations(folder_ / "fixations.jsonl");
+    Progress progress(!settings.quiet, expected_frames(source->info(), settings));
+    Pipeline pipeline(std::move(source), std::move(processor), std::move(options));
+    const Watched watched(*this, pipeline);
+    WriterPool writer(writers, [&](const Result& result) {
+      write_frame(folder_, result, settings.dump, settings.first_level);
+    });
+    try {
+      while (ResultHandle result = pipeline.next()) {
+        fixations.append(fixations_json(*result));
+        report_.stages.add(result->times);
+        writer.submit(std::move(result));
+        progress.update(pipeline.ledger().processed);
+      }
+      writer.finish();
+    } catch (...) {
+      end(pipeline, begin);
+      throw;
+    }
+    end(pipeline, begin);
+  }
+
+  // Stops and lets the last results go, so that the ledger is final.
+  void end(Pipeline& pipeline, std::chrono::steady_clock::time_point begin) {
+    pipeline.stop();
+    try {
+      while (pipeline.next()) {
+      }
+    } catch (const std::exception&) {
+      // The first error is on its way to the user already.
+    }
+    report_.ledger = pipeline.ledger();
+    report_.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  }
+
+  void tell_notes() const {
+    for (const std::string& note : report_.source.notes) spdlog::warn("{}: {}", report_.source.uri, note);
+    const Intrinsics& camera = report_.source.intrinsics;
+    if (!report_.settings.intrinsics && camera.origin == IntrinsicsOrigin::guess)
+      spdlog::warn("{}: no calibration, guessing fx={} fy={} cx={} cy={} (give --intrinsics fx,fy,cx,cy)",
+                   report_.source.uri, camera.fx, camera.fy, camera.cx, camera.cy);
+  }
+
+  void check_start() const {
+    const auto& count = report_.source.frame_count;
+    if (count && report_.settings.start >= *count)
+      throw usage_error(fmt::format("--start {} is behind the last frame", report_.settings.start),
+                        report_.source.uri, fmt::format("it has {} frames, counted from 0", *count));
+  }
+
+  void check_any_processed() const {
+    if (report_.ledger.processed == 0 && !report_.rejected.empty())
+      throw unreadable(fmt::format("none of {} frames could be used; the first: {}", report_.rejected.size(),
+                                   report_.rejected.front().second),
+                       report_.source.uri, "depth must be 16-bit gray in mm, colour of the same size");
+  }
+
+  // On the capture thread; read by the others after it has ended.
+  void reject(std::int64_t index, const std::string& reason) {
+    spdlog::warn("frame {} rejected: {}", index, reason);
+    report_.rejected.emplace_back(index, reason);
+  }
+
+  void write_manifest() const {
+    write_file(folder_ / "manifest.json", manifest_json(report_).dump(2) + "\n");
+  }
+
+  void write_manifest_if_possible() const {
+    try {
+      write_manifest();
+    } catch (const Error& error) {
+      spdlog::debug("{}", error.what());  // the disk is full, most likely: the error that is told already
+    }
+  }
+
+  void tell_summary() const {
+    if (report_.settings.json) {
+      fmt::print("{}\n", summary_json(report_).dump());
+    } else if (!report_.settings.quiet) {
+      const Ledger& ledger = report_.ledger;
+      fmt::print("{} frame{} in {:.2f} s ({:.1f}/s){}{}; see {}\n", ledger.processed,
+                 ledger.processed == 1 ? "" : "s", report_.wall_s,
+                 static_cast<double>(ledger.processed) / std::max(report_.wall_s, 1e-9),
+                 ledger.rejected ? fmt::format(", {} rejected", ledger.rejected) : "",
+                 report_.status == "interrupted" ? ", interrupted" : "", folder_.string());
+    }
+    std::fflush(stdout);
+  }
+
+  // Makes the pipeline known to stop() for as long as both live.
+  struct Watched {
+    Watched(Run& r, Pipeline& pipeline) : run(r) {
+      const std::lock_guard lock(run.mutex_);
+      run.pipeline_ = &pipeline;
+      if (run.stopped_) pipeline.stop();
+    }
+    ~Watched() {
+      const std::lock_guard lock(run.mutex_);
+      run.pipeline_ = nullptr;
+    }
+    Watched(const Watched&) = delete;
+    Watched& operator=(const Watched&) = delete;
+    Run& run;
+  };
+
+  void stop() {
+    const std::lock_guard lock(mutex_);
+    stopped_ = true;
+    if (pipeline_ != nullptr) pipeline_->stop();
+  }
+
+  fs::path folder_;
+  RunReport report_;
+  std::mutex mutex_;
+  Pipeline* pipeline_ = nullptr;  // guarded by mutex_
+  bool stopped_ = false;          // guarded by mutex_
+};
+
+}  // namespace
+
+void run(const RunArguments& arguments, const Settings& settings) {
+  cv::setNumThreads(1);  // the threads are ours to count
+  Run(arguments, settings).execute(arguments.source);
+}
+
+}  // namespace saccade

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/settings.hpp"
+
+namespace saccade {
+
+struct RunArguments {
+  std::string source;                     ///< SOURCE of SPEC section 7
+  std::string out;                        ///< folder, made if it is not there
+  std::vector<std::string> command_line;  ///< for the manifest
+};
+
+/// `saccade run`: computes every frame of the source and writes DIR (SPEC section 7). Throws Error.
+void run(const RunArguments& arguments, const Settings& settings);
+
+}  // namespace saccade

@@ -1,0 +1,77 @@
+#include "ui/overlay.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include <opencv2/imgproc.hpp>
+
+#include "ui/colour_map.hpp"
+
+namespace saccade {
+namespace {
+
+const cv::Scalar kMark(255, 255, 255), kFirstMark(80, 255, 80), kShadow(0, 0, 0);
+
+// out = background * (1 - a) + turbo(map) * a with a = opacity * sqrt(map), so that the unsalient stays as it
+// was.
+void blend_map(cv::Mat3b& picture, const cv::Mat1f& saliency, double opacity) {
+  const cv::Mat1b gray = to_gray(saliency);
+  cv::Mat3b colours;
+  cv::applyColorMap(gray, colours, cv::COLORMAP_TURBO);
+  cv::Mat1b weights(1, 256);
+  for (int i = 0; i < 256; ++i)
+    weights(i) = cv::saturate_cast<std::uint8_t>(255 * opacity * std::sqrt(i / 255.0));
+  for (int r = 0; r < picture.rows; ++r)
+    for (int c = 0; c < picture.cols; ++c) {
+      const int a = weights(gray(r, c));
+      cv::Vec3b& p = picture(r, c);
+      const cv::Vec3b& q = colours(r, c);
+      for (int i = 0; i < 3; ++i) p[i] = static_cast<std::uint8_t>((p[i] * (255 - a) + q[i] * a + 127) / 255);
+    }
+}
+
+void draw_outlines(cv::Mat3b& picture, const cv::Mat1w& masks) {
+  if (masks.empty()) return;
+  for (int r = 0; r + 1 < masks.rows; ++r)
+    for (int c = 0; c + 1 < masks.cols; ++c)
+      if (masks(r, c) != masks(r, c + 1) || masks(r, c) != masks(r + 1, c)) picture(r, c) = {255, 255, 255};
+}
+
+void draw_label(cv::Mat3b& picture, const std::string& text, cv::Point centre, double size,
+                const cv::Scalar& colour) {
+  int baseline = 0;
+  const double scale = 0.45 * size;
+  const cv::Size box = cv::getTextSize(text, cv::FONT_HERSHEY_SIMPLEX, scale, 1, &baseline);
+  const cv::Point origin(centre.x - box.width / 2, centre.y + box.height / 2);
+  cv::putText(picture, text, origin, cv::FONT_HERSHEY_SIMPLEX, scale, colour, std::max(1, cvRound(size)),
+              cv::LINE_AA);
+}
+
+void draw_marks(cv::Mat3b& picture, const std::vector<Fixation>& fixations) {
+  const double size = std::clamp(picture.cols / 640.0, 0.5, 4.0);
+  const int radius = cvRound(11 * size), line = std::max(1, cvRound(size));
+  for (std::size_t i = 1; i < fixations.size(); ++i)
+    cv::line(picture, {fixations[i - 1].col, fixations[i - 1].row}, {fixations[i].col, fixations[i].row},
+             kMark, line, cv::LINE_AA);
+  for (std::size_t i = fixations.size(); i-- > 0;) {  // the first on top
+    const cv::Point centre(fixations[i].col, fixations[i].row);
+    const cv::Scalar& colour = i == 0 ? kFirstMark : kMark;
+    cv::circle(picture, centre, radius, kShadow, cv::FILLED, cv::LINE_AA);
+    cv::circle(picture, centre, radius, colour, line, cv::LINE_AA);
+    draw_label(picture, std::to_string(i + 1), centre, size, colour);
+  }
+}
+
+}  // namespace
+
+cv::Mat3b draw_overlay(const Frame& frame, const cv::Mat1f& saliency, const Attention& attention,
+                       const OverlayStyle& style) {
+  cv::Mat3b picture = frame.colour.empty() ? depth_picture(frame.depth_mm) : cv::Mat3b(frame.colour.clone());
+  blend_map(picture, saliency, style.map_opacity);
+  if (style.outlines) draw_outlines(picture, attention.masks);
+  if (style.marks) draw_marks(picture, attention.fixations);
+  return picture;
+}
+
+}  // namespace saccade
