@@ -152,7 +152,9 @@ TEST(Pipeline, ErrorsOfEitherThreadComeAfterTheResultsBeforeThem) {
                 std::string::npos);
     }
     EXPECT_LE(seen, 20);
-    if (!source_fails) EXPECT_EQ(seen, 20);
+    if (!source_fails) {
+      EXPECT_EQ(seen, 20);
+    }
     expect_balanced(pipeline.ledger());
   }
 }
