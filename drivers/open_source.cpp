@@ -4,10 +4,12 @@
 
 #include "core/error.hpp"
 #include "drivers/folder_source.hpp"
+#include "drivers/synthetic_source.hpp"
 
 namespace saccade {
 
 std::unique_ptr<FrameSource> open_source(const std::string& uri) {
+  if (uri.starts_with("synthetic:")) return std::make_unique<SyntheticSource>(uri);
   if (std::filesystem::is_directory(uri)) return open_folder(uri);
   if (std::filesystem::exists(uri))
     throw unreadable("not a kind of file that can be read", uri, "a folder of images is expected");

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <opencv2/core.hpp>
+
+#include "core/intrinsics.hpp"
+#include "scene/scene.hpp"
+
+namespace saccade::scene {
+
+/// What a perfect camera sees of a scene. All H x W.
+struct SceneRender {
+  cv::Mat1f depth_mm;  ///< along the optical axis, exact to the last bit of float; 0 = the ray hits nothing
+  cv::Mat3f normals;   ///< unit, camera frame, towards the camera; (0,0,0) = no surface
+  cv::Mat1w labels;    ///< Part::label; 0 where there is no surface
+  cv::Mat1w parts;     ///< index into Scene::parts plus 1; 0 = no surface
+  cv::Mat3b colour;    ///< BGR
+};
+
+/// Casts a ray through the centre of each pixel. Reuses the memory of `out` if its size fits. One thread.
+/// Throws std::invalid_argument for invalid intrinsics or an empty size.
+void render(const Scene& scene, const Intrinsics& camera, cv::Size size, const Pose& pose, SceneRender& out);
+
+}  // namespace saccade::scene
