@@ -40,6 +40,11 @@ bool is_gray_or_palette(const spng_ihdr& header) {
   return header.color_type == SPNG_COLOR_TYPE_GRAYSCALE || header.color_type == SPNG_COLOR_TYPE_INDEXED;
 }
 
+void decode_pixels(spng_ctx* context, cv::Mat& image, int format) {
+  check(spng_decode_image(context, image.data, image.total() * image.elemSize(), format, 0));
+  check(spng_decode_chunks(context));  // to the end, so that a file cut there is noticed
+}
+
 // SPNG_FMT_PNG leaves samples below 8 bits packed; G8 widens gray ones but scales them, which labels must not
 // be.
 cv::Mat unpack(const cv::Mat1b& packed, cv::Size size, int bits) {
@@ -85,22 +90,24 @@ cv::Mat decode_png(std::span<const std::uint8_t> png) {
   const int bits = header.bit_depth;
   if (!is_gray_or_palette(header)) {
     cv::Mat image(size, CV_8UC3);
-    check(spng_decode_image(context.get(), image.data, image.total() * image.elemSize(), SPNG_FMT_RGB8, 0));
+    decode_pixels(context.get(), image, SPNG_FMT_RGB8);
     cv::cvtColor(image, image, cv::COLOR_RGB2BGR);
     return image;
   }
   const int row_bytes = bits >= 8 ? size.width : (size.width * bits + 7) / 8;
   cv::Mat image(size.height, row_bytes, bits == 16 ? CV_16UC1 : CV_8UC1);
-  check(spng_decode_image(context.get(), image.data, image.total() * image.elemSize(), SPNG_FMT_PNG, 0));
+  decode_pixels(context.get(), image, SPNG_FMT_PNG);
   return bits >= 8 ? image : unpack(image, size, bits);
 }
 
 std::vector<std::uint8_t> encode_png(const cv::Mat& image) {
   if (image.empty() || (image.type() != CV_8UC1 && image.type() != CV_16UC1 && image.type() != CV_8UC3))
     throw std::invalid_argument("encode_png: 8-bit gray, 16-bit gray or 8-bit BGR expected");
-  cv::Mat pixels = image;
-  if (image.channels() == 3) cv::cvtColor(image, pixels, cv::COLOR_BGR2RGB);
-  if (!pixels.isContinuous()) pixels = pixels.clone();
+  cv::Mat pixels;  // continuous, in the file's order; never the caller's own memory
+  if (image.channels() == 3)
+    cv::cvtColor(image, pixels, cv::COLOR_BGR2RGB);
+  else
+    pixels = image.isContinuous() ? image : image.clone();
 
   const Context context = make_context(SPNG_CTX_ENCODER);
   spng_ihdr header{};
