@@ -1,0 +1,123 @@
+// `saccade` given what it cannot use: one line that says so, and the exit status of SPEC section 7.
+
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include "core/file.hpp"
+#include "core/png.hpp"
+#include "subprocess.hpp"
+
+namespace saccade {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+
+constexpr int kFailed = 1, kUsage = 2, kUnreadable = 3;
+const std::string kScene = "synthetic:table?frames=2&size=160x120";
+
+class RunErrorsTest : public ProgramTest {
+ protected:
+  // Runs on the scene with more arguments and expects one line of error that holds `text`.
+  void expect(int status, const std::string& part, const std::vector<std::string>& more,
+              const std::string& source = kScene, const std::string& out = "out") const {
+    std::vector<std::string> arguments = {"run", source, "--out", in(out)};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Outcome outcome = run_saccade(arguments);
+    EXPECT_EQ(outcome.status, status) << part << ": " << outcome.err;
+    EXPECT_TRUE(outcome.one_error_line());
+    EXPECT_THAT(outcome.err, HasSubstr(part));
+    EXPECT_EQ(outcome.out, "");
+  }
+
+  void put(const std::string& name, const cv::Mat& image) const {
+    fs::create_directories(folder_ / "data");
+    write_file(folder_ / "data" / name, encode_png(image));
+  }
+};
+
+TEST_F(RunErrorsTest, OptionsOutOfRange) {
+  expect(kUsage, "3..127", {"--kernel", "2"});
+  expect(kUsage, "3..127", {"--kernel", "128"});
+  expect(kUsage, "symmetry3d", {"--model", "nonsense"});
+  expect(kUsage, "level 4 has only 10x8 pixels", {"--levels", "0..5"},
+         "synthetic:table?frames=1&size=160x128");
+  expect(kUsage, "try --levels 0..3", {"--levels", "0..9"});
+  expect(kUsage, "fx,fy,cx,cy", {"--intrinsics", "nan,525,320,240"});
+  expect(kUsage, "fx,fy,cx,cy", {"--intrinsics=-525,525,320,240"});
+  expect(kUsage, "maps, levels", {"--dump", "everything"});
+  expect(kUsage, "it has 2 frames", {"--start", "2", "--levels", "0..2"});
+  EXPECT_FALSE(fs::exists(folder_ / "out")) << "nothing is made before the command line is right";
+}
+
+TEST_F(RunErrorsTest, CommandLine) {
+  for (const std::vector<std::string>& arguments : {std::vector<std::string>{},
+                                                    {"nonsense"},
+                                                    {"run"},
+                                                    {"run", kScene},
+                                                    {"run", kScene, "--out", in("o"), "--kernal", "9"},
+                                                    {"run", kScene, "--out", in("o"), "--kernel"}}) {
+    const Outcome outcome = run_saccade(arguments);
+    EXPECT_EQ(outcome.status, kUsage) << outcome.err;
+    EXPECT_TRUE(outcome.one_error_line());
+  }
+  EXPECT_EQ(run_saccade({"--help"}).status, 0);
+  EXPECT_THAT(run_saccade({"run", "--help"}).out, HasSubstr("--kernel"));
+  EXPECT_THAT(run_saccade({"--version"}).out, HasSubstr("saccade "));
+}
+
+TEST_F(RunErrorsTest, Configuration) {
+  write_file(folder_ / "c.toml", std::string_view("kernle = 9\n"));
+  expect(kUsage, "did you mean kernel?", {"--config", in("c.toml")});
+  write_file(folder_ / "c.toml", std::string_view("kernel = \n"));
+  expect(kUsage, "not valid TOML", {"--config", in("c.toml")});
+  expect(kUnreadable, "none.toml", {"--config", in("none.toml")});
+}
+
+TEST_F(RunErrorsTest, Sources) {
+  expect(kUnreadable, "no such source", {}, in("nowhere"));
+  expect(kUsage, "nonsense", {}, "synthetic:nonsense");
+  expect(kUsage, "sede", {}, "synthetic:table?sede=3");
+  fs::create_directories(folder_ / "data");
+  expect(kUnreadable, "no frames in the folder", {}, in("data"));
+  put("0000_depth.png", cv::Mat1b(64, 64, std::uint8_t{1}));
+  expect(kUnreadable, "8-bit gray", {}, in("data"));
+  put("0000_depth.png", cv::Mat3b(64, 64, cv::Vec3b()));
+  expect(kUnreadable, "8-bit RGB", {}, in("data"));
+  put("0000_depth.png", cv::Mat1w(64, 64, std::uint16_t{800}));
+  write_file(folder_ / "data/meta.json", std::string_view("{"));
+  expect(kUnreadable, "meta.json", {}, in("data"));
+}
+
+TEST_F(RunErrorsTest, NoFrameOfTheSourceIsUsable) {
+  put("0000_depth.png", cv::Mat1w(160, 160, std::uint16_t{800}));
+  put("0000_rgb.png", cv::Mat3b(80, 80, cv::Vec3b()));
+  const Outcome outcome =
+      run_saccade({"run", in("data"), "--out", in("out"), "--intrinsics", "500,500,80,80"});
+  EXPECT_EQ(outcome.status, kUnreadable);
+  EXPECT_THAT(outcome.err, HasSubstr("0000_rgb.png: 80x80, but the depth is 160x160"));
+  EXPECT_EQ(nlohmann::json::parse(text("out/manifest.json"))["status"], "failed");
+}
+
+TEST_F(RunErrorsTest, OutputThatCannotBeWritten) {
+  const std::vector<std::string> levels = {"--levels", "0..2"};
+  write_file(folder_ / "file", std::string_view("x"));
+  expect(kFailed, "file", levels, kScene, "file");
+  expect(kFailed, "file/deeper", levels, kScene, "file/deeper");
+  const Outcome device = run_saccade({"run", kScene, "--out", "/dev/full", "--levels", "0..2"});
+  EXPECT_EQ(device.status, kFailed);
+  EXPECT_TRUE(device.one_error_line());
+
+  fs::create_directories(folder_ / "full");
+  for (const char* name :
+       {"fixations.jsonl", "000001_saliency.tiff", "000001_overlay.png", "manifest.json"}) {
+    fs::remove_all(folder_ / "full");
+    fs::create_directories(folder_ / "full");
+    fs::create_symlink("/dev/full", folder_ / "full" / name);
+    expect(kFailed, "No space left on device", levels, kScene, "full");
+    EXPECT_TRUE(fs::is_symlink(folder_ / "full" / name));
+  }
+}
+
+}  // namespace
+}  // namespace saccade

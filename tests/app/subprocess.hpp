@@ -1,0 +1,34 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace saccade {
+
+struct Outcome {
+  int status = -1;  ///< exit status; -signal if it was killed
+  std::string out, err;
+
+  /// The error is one line of the program's own.
+  ::testing::AssertionResult one_error_line() const;
+};
+
+/// Runs the program under test. With interrupt_after_ms >= 0 it gets SIGINT once the file `wait_for` exists
+/// and so many milliseconds have passed.
+Outcome run_saccade(const std::vector<std::string>& arguments, int interrupt_after_ms = -1,
+                    const std::filesystem::path& wait_for = {});
+
+/// A folder of one test, empty at its start and removed at its end.
+class ProgramTest : public ::testing::Test {
+ protected:
+  void SetUp() override;
+  void TearDown() override;
+  std::string in(const std::string& name) const { return (folder_ / name).string(); }
+  std::string text(const std::string& name) const;
+  std::filesystem::path folder_;
+};
+
+}  // namespace saccade
