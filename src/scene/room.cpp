@@ -45,8 +45,8 @@ void add_shell(Scene& scene, double side, Random& random) {
   for (int i = 0; i < 2; ++i) {
     const double x = side * (-900 + 760 * i), width = random.between(420, 560);
     shell.block(x, kBack - 4, 1350, width, 8, 420, frame);
-    shell.block(x, kBack - 6, 1385, width - 70, 12, 350, {object_colour(random, i), Texture::checked, 0});
-    shell.block(x, kBack - 7, 1460, 0.5 * width, 14, 170, {object_colour(random, i + 2)});
+    shell.block(x, kBack - 4.5, 1385, width - 70, 9, 350, {object_colour(random, i), Texture::checked, 0});
+    shell.block(x, kBack - 5, 1460, 0.5 * width, 10, 170, {object_colour(random, i + 2)});
   }
   shell.block(side * -250, 700, 0, 2300, 1500, 6, {{0.50, 0.38, 0.45}, Texture::checked, 0});
 }
