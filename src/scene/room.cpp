@@ -119,7 +119,7 @@ void add_small_things(Scene& scene, int& label, const Vector3d& table, double si
       .add(Frustum{55, 90, 210}, {0, 0, 0}, {object_colour(random, label), Texture::striped, 0.3});
   Furniture(scene, ++label, on_table(280, -60), random.between(-40, 40))
       .block(0, 0, 0, 230, 170, 90, {object_colour(random, label), Texture::speckled, 0});
-  Furniture(scene, ++label, {side * random.between(-1250, -950), random.between(-100, 150), 0}, 0)
+  Furniture(scene, ++label, {side * random.between(-1100, -900), random.between(0, 200), 0}, 0)
       .add(Sphere{150}, {0, 0, 150}, {object_colour(random, label), Texture::plain, 0.5});
 }
 

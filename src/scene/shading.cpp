@@ -34,10 +34,11 @@ struct BlockerGroup {  // an object
 
 // The objects; the background catches shadows and casts none.
 std::vector<BlockerGroup> find_blockers(const Scene& scene) {
-  std::vector<BlockerGroup> groups(static_cast<std::size_t>(scene.objects));
+  std::vector<BlockerGroup> groups;
   for (const Part& part : scene.parts) {
     if (part.label == 0) continue;
     const Bound own = bound(part.shape);
+    groups.resize(std::max(groups.size(), static_cast<std::size_t>(part.label)));
     groups[static_cast<std::size_t>(part.label) - 1].parts.push_back(
         {&part, {part.position_mm + part.rotation * own.centre, own.radius}});
   }
