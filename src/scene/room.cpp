@@ -45,8 +45,8 @@ void add_shell(Scene& scene, double side, Random& random) {
   for (int i = 0; i < 2; ++i) {
     const double x = side * (-900 + 760 * i), width = random.between(420, 560);
     shell.block(x, kBack - 4, 1350, width, 8, 420, frame);
-    shell.block(x, kBack - 6, 1385, width - 70, 12, 350, {object_colour(random, i), Texture::checked, 0});
-    shell.block(x, kBack - 7, 1460, 0.5 * width, 14, 170, {object_colour(random, i + 2)});
+    shell.block(x, kBack - 4.5, 1385, width - 70, 9, 350, {object_colour(random, i), Texture::checked, 0});
+    shell.block(x, kBack - 5, 1460, 0.5 * width, 10, 170, {object_colour(random, i + 2)});
   }
   shell.block(side * -250, 700, 0, 2300, 1500, 6, {{0.50, 0.38, 0.45}, Texture::checked, 0});
 }
@@ -119,7 +119,7 @@ void add_small_things(Scene& scene, int& label, const Vector3d& table, double si
       .add(Frustum{55, 90, 210}, {0, 0, 0}, {object_colour(random, label), Texture::striped, 0.3});
   Furniture(scene, ++label, on_table(280, -60), random.between(-40, 40))
       .block(0, 0, 0, 230, 170, 90, {object_colour(random, label), Texture::speckled, 0});
-  Furniture(scene, ++label, {side * random.between(-1250, -950), random.between(-100, 150), 0}, 0)
+  Furniture(scene, ++label, {side * random.between(-1100, -900), random.between(0, 200), 0}, 0)
       .add(Sphere{150}, {0, 0, 150}, {object_colour(random, label), Texture::plain, 0.5});
 }
 

@@ -6,8 +6,6 @@
 #include <numbers>
 #include <stdexcept>
 
-#include <Eigen/Geometry>
-
 #include "scene/layout.hpp"
 
 namespace saccade::scene {

@@ -9,33 +9,60 @@
 namespace saccade::scene {
 namespace {
 
-// A part that may stand between the lamp and a surface, in a form that is quick to reject.
-struct Blocker {
-  const Part* part;
-  Vector3d centre;
-  double square_radius;
+// Balls around what may stand between the lamp and a surface, to reject most of it quickly.
+struct Ball {
+  Vector3d centre = Vector3d::Zero();
+  double radius = 0;
+
+  // Whether the line from `point` along `direction`, `square` its squared length, passes through.
+  bool met_by(const Vector3d& point, const Vector3d& direction, double square) const {
+    const Vector3d offset = centre - point;
+    const double along = offset.dot(direction);
+    return offset.squaredNorm() * square - along * along <= radius * radius * square;
+  }
 };
 
-std::vector<Blocker> blockers(const Scene& scene) {
-  std::vector<Blocker> result;
+struct Blocker {
+  const Part* part;
+  Ball ball;
+};
+
+struct BlockerGroup {  // an object
+  Ball ball;
+  std::vector<Blocker> parts;
+};
+
+// The objects; the background catches shadows and casts none.
+std::vector<BlockerGroup> find_blockers(const Scene& scene) {
+  std::vector<BlockerGroup> groups;
   for (const Part& part : scene.parts) {
     if (part.label == 0) continue;
-    const Bound ball = bound(part.shape);
-    result.push_back({&part, part.position_mm + part.rotation * ball.centre, ball.radius * ball.radius});
+    const Bound own = bound(part.shape);
+    groups.resize(std::max(groups.size(), static_cast<std::size_t>(part.label)));
+    groups[static_cast<std::size_t>(part.label) - 1].parts.push_back(
+        {&part, {part.position_mm + part.rotation * own.centre, own.radius}});
   }
-  return result;
+  for (BlockerGroup& group : groups) {
+    for (const Blocker& blocker : group.parts)
+      group.ball.centre += blocker.ball.centre / static_cast<double>(group.parts.size());
+    for (const Blocker& blocker : group.parts)
+      group.ball.radius =
+          std::max(group.ball.radius, (blocker.ball.centre - group.ball.centre).norm() + blocker.ball.radius);
+  }
+  return groups;
 }
 
-bool shadowed(const std::vector<Blocker>& all, const Vector3d& point, const Vector3d& to_light) {
+bool shadowed(const std::vector<BlockerGroup>& groups, const Vector3d& point, const Vector3d& to_light) {
   const double square = to_light.squaredNorm();
-  for (const Blocker& blocker : all) {
-    const Vector3d offset = blocker.centre - point;
-    const double along = offset.dot(to_light);
-    if (offset.squaredNorm() * square - along * along > blocker.square_radius * square) continue;
-    const Matrix3d to_shape = blocker.part->rotation.transpose();
-    const Ray ray{to_shape * (point - blocker.part->position_mm), to_shape * to_light};
-    const Hit hit = std::visit([&](const auto& body) { return intersect(body, ray); }, blocker.part->shape);
-    if (hit && hit.t < 1) return true;
+  for (const BlockerGroup& group : groups) {
+    if (!group.ball.met_by(point, to_light, square)) continue;
+    for (const Blocker& blocker : group.parts) {
+      if (!blocker.ball.met_by(point, to_light, square)) continue;
+      const Matrix3d to_shape = blocker.part->rotation.transpose();
+      const Ray ray{to_shape * (point - blocker.part->position_mm), to_shape * to_light};
+      const Hit hit = std::visit([&](const auto& body) { return intersect(body, ray); }, blocker.part->shape);
+      if (hit && hit.t < 1) return true;
+    }
   }
   return false;
 }
@@ -86,7 +113,7 @@ double power16(double x) {
 void shade(const Scene& scene, const Intrinsics& camera, const Pose& pose, SceneRender& out) {
   constexpr double kLamp = 0.72, kSky = 0.2, kCamera = 0.16;
   out.colour.create(out.depth_mm.size());
-  const std::vector<Blocker> casters = blockers(scene);
+  const std::vector<BlockerGroup> blockers = find_blockers(scene);
   for (int r = 0; r < out.colour.rows; ++r)
     for (int c = 0; c < out.colour.cols; ++c) {
       if (out.parts(r, c) == 0) {
@@ -104,7 +131,7 @@ void shade(const Scene& scene, const Intrinsics& camera, const Pose& pose, Scene
 
       const double facing = normal.dot(light);
       double direct = 0, highlight = 0;
-      if (facing > 0 && !shadowed(casters, point, to_light)) {
+      if (facing > 0 && !shadowed(blockers, point, to_light)) {
         direct = kLamp * facing;
         highlight = part.gloss * power16(std::max(0.0, normal.dot((light + view).normalized())));
       }

@@ -3,6 +3,7 @@
 #include <variant>
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 
 namespace saccade::scene {
 

@@ -4,13 +4,14 @@
 
 namespace saccade::scene {
 
-// The shapes of Fig. 3, about 170 px wide in a picture of 640. The camera looks along +y.
+// The shapes of Fig. 3 in the middle of the picture, 170 to 240 px across at a width of 640. The wall is so
+// far behind that no window of the operator takes it for the same surface.
 void lay_out_shape(Scene& scene, std::string_view name, Random& random) {
   constexpr double kDistance_mm = 900, kWall_mm = 2200;
   const cv::Vec3d colour = object_colour(random, random.whole(0, 99));
   const Vector3d origin = Vector3d::Zero();
   if (name == "sphere")
-    scene.parts.push_back({Sphere{140}, origin, Matrix3d::Identity(), 1, colour, Texture::speckled, 0.4});
+    scene.parts.push_back({Sphere{200}, origin, Matrix3d::Identity(), 1, colour, Texture::speckled, 0.4});
   if (name == "cube")
     scene.parts.push_back(
         {Box{{105, 105, 105}}, origin, about_x(20) * about_z(40), 1, colour, Texture::speckled, 0.1});

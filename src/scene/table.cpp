@@ -8,7 +8,10 @@
 namespace saccade::scene {
 namespace {
 
-constexpr double kHalfWidth = 620, kHalfDepth = 430, kThickness = 30, kHeight = 740;  // the table, mm
+// The table top, mm; its near edge is out of the picture.
+constexpr double kHalfWidth = 700, kNear = -900, kFar = 480, kThickness = 30, kHeight = 740;
+// Where objects stand, mm: narrower towards the camera, so that the camera of frame 0 sees all of it.
+constexpr double kNear_y = -200, kNear_x = 240, kFar_y = 290, kFar_x = 360;
 constexpr double kGap = 8;  // kept free between two objects, mm
 
 // A circle on the table that an object stays within.
@@ -94,15 +97,15 @@ Piece make_piece(int kind, Random& random) {
   }
 }
 
-// Somewhere on the table where `radius` is free; the circles shrink the choice, never the object. Gives up
-// after many trials.
+// Somewhere on the table where a circle is free; false after many trials.
 bool find_place(const std::vector<Place>& taken, double radius, Random& random, Place& place) {
   constexpr int kTrials = 400;
   for (int trial = 0; trial < kTrials; ++trial) {
-    // Early trials stay near the middle, so that the picture is cluttered and nothing leaves it.
-    const double reach = 0.55 + 0.35 * trial / kTrials;
-    place = {random.between(-0.62, 0.62) * reach * kHalfWidth,
-             random.between(-0.75, 0.75) * reach * kHalfDepth, radius};
+    // Early trials stay near the middle, so that the picture is cluttered.
+    const double reach = 0.7 + 0.3 * trial / kTrials;
+    const double y = random.between(kNear_y, kFar_y);
+    const double reach_x = kNear_x + (kFar_x - kNear_x) * (y - kNear_y) / (kFar_y - kNear_y);
+    place = {reach * random.between(-reach_x, reach_x), reach * y, radius};
     const bool free = std::ranges::none_of(taken, [&](const Place& other) {
       return std::hypot(place.x - other.x, place.y - other.y) < radius + other.radius + kGap;
     });
@@ -114,17 +117,17 @@ bool find_place(const std::vector<Place>& taken, double radius, Random& random, 
 void add_surroundings(Scene& scene, Random& random) {
   const Matrix3d upright = Matrix3d::Identity();
   const double warm = random.between(0.9, 1.05);
-  scene.parts.push_back({Box{{kHalfWidth, kHalfDepth, kThickness / 2}},
-                         {0, 0, -kThickness / 2},
+  scene.parts.push_back({Box{{kHalfWidth, (kFar - kNear) / 2, kThickness / 2}},
+                         {0, (kNear + kFar) / 2, -kThickness / 2},
                          upright,
                          0,
                          warm * cv::Vec3d(0.42, 0.58, 0.72),
                          Texture::planks,
                          0.05});
   for (const double x : {-1.0, 1.0})
-    for (const double y : {-1.0, 1.0})
+    for (const double y : {kNear + 60, kFar - 60})
       scene.parts.push_back({Box{{25, 25, (kHeight - kThickness) / 2}},
-                             {x * (kHalfWidth - 60), y * (kHalfDepth - 60), -(kHeight + kThickness) / 2},
+                             {x * (kHalfWidth - 60), y, -(kHeight + kThickness) / 2},
                              upright,
                              0,
                              {0.3, 0.42, 0.55},
@@ -160,8 +163,8 @@ void lay_out_table(Scene& scene, int objects, Random& random) {
       scene.parts.push_back(part);
     }
   }
-  constexpr double kDistance_mm = 1000, kElevation = 38 * std::numbers::pi / 180;
-  scene.target_mm = {0, 0, 30};
+  constexpr double kDistance_mm = 850, kElevation = 38 * std::numbers::pi / 180;
+  scene.target_mm = {0, 60, 30};
   scene.eye_mm = scene.target_mm + kDistance_mm * Vector3d(0, -std::cos(kElevation), std::sin(kElevation));
   scene.light_mm = {random.between(-1100, -500), -700, 1500};
   scene.sway_rad = 30 * std::numbers::pi / 180;
