@@ -1,0 +1,64 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include <opencv2/core.hpp>
+
+#include "core/intrinsics.hpp"
+#include "oni/format.hpp"
+
+namespace saccade {
+
+struct OniNode;
+
+/// Names of properties. The last ones are Saccade's own; other players pass over them.
+namespace oni_property {
+constexpr std::string_view kMode = "xnMapOutputMode";      ///< u32 width, height, frames a second
+constexpr std::string_view kXnFormat = "xnPixelFormat";    ///< 1 RGB24, 2 YUV422, 3 gray 8, 4 gray 16, 5 JPEG
+constexpr std::string_view kOniFormat = "oniPixelFormat";  ///< OniPixelFormat; takes precedence
+constexpr std::string_view kMaxDepth = "xnDeviceMaxDepth";             ///< largest depth value
+constexpr std::string_view kFov = "xnFOV";                             ///< f64 horizontal, vertical, radians
+constexpr std::string_view kRealWorld = "xnRealWorldTranslationData";  ///< f64 zero plane, pixel size, ratio
+constexpr std::string_view kCropping = "xnCropping";           ///< u32 enabled, u16 x, y, width, height
+constexpr std::string_view kMirror = "xnMirror";               ///< the pixels are stored mirrored already
+constexpr std::string_view kShiftToDepth = "S2D";              ///< u16 depth in mm of each raw shift
+constexpr std::string_view kIntrinsics = "saccadeIntrinsics";  ///< f64 fx, fy, cx, cy
+constexpr std::string_view kIntrinsicsGuessed = "saccadeIntrinsicsGuessed";  ///< int 1 = nobody knew them
+constexpr std::string_view kRegistered = "saccadeRegistered";  ///< int 1 = colour lies on the depth
+constexpr std::string_view kDropped =
+    "saccadeDroppedFrames";  ///< int, frames that were captured and not written
+constexpr std::string_view kRounded =
+    "saccadeRoundedFrames";                              ///< int, frames whose depth did not fit the unit
+constexpr std::string_view kVersion = "saccadeVersion";  ///< string, the program that wrote the file
+}  // namespace oni_property
+
+/// The sizes that the value of a known property may have, bytes.
+struct OniPropertySize {
+  std::size_t least = 0, most = 0, step = 1;
+  bool allows(std::size_t size) const { return size >= least && size <= most && size % step == 0; }
+};
+
+/// Absent for a property that the reader has no use for.
+std::optional<OniPropertySize> known_property_size(std::string_view name);
+
+/// What the frames of a stream are like at one place of the file.
+struct OniFormat {
+  cv::Size size;       ///< the full image, px
+  cv::Rect crop;       ///< the part that a frame holds; the whole image where cropping is off
+  double rate_hz = 0;  ///< nominal, 0 = unknown
+  OniPixelFormat pixels = OniPixelFormat::depth_1mm;
+  std::string unusable;  ///< why frames cannot be decoded; empty = they can
+};
+
+/// The format that holds for what lies at `position`. Every number in the file is checked against its bound.
+OniFormat format_at(const OniNode& node, std::uint64_t position);
+
+/// The camera of a stream: Saccade's own record of it (exact), or from the field of view, or from the
+/// zero-plane data of old files; absent if the file has none. A recorded guess stays a guess.
+std::optional<Intrinsics> intrinsics_at(const OniNode& node, std::uint64_t position, cv::Size size);
+
+}  // namespace saccade

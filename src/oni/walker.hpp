@@ -1,0 +1,59 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "oni/format.hpp"
+#include "oni/input_file.hpp"
+
+namespace saccade {
+
+/// A part of the file that holds no usable record.
+struct OniGap {
+  std::uint64_t begin = 0, end = 0;
+  std::uint64_t bytes() const { return end - begin; }
+};
+
+/// Gives the records of a file one after another, each read from at most two places and checked against the
+/// bounds of the format and the size of the file. Where the chain of records breaks, it searches for the next
+/// place where one begins and its end is again a record or the end of the file. Every byte is looked at a
+/// bounded number of times, so damage of any kind costs time linear in the size of the file.
+class OniWalker {
+ public:
+  /// `file` must outlive the walker. Throws Error (unreadable) if it is no .oni file, or of an unknown
+  /// version.
+  explicit OniWalker(const InputFile& file);
+
+  const OniFileHeader& header() const { return header_; }
+
+  /// The next record, or none at the end. Its end() is within the file.
+  std::optional<OniRecord> next();
+
+  /// What was passed over so far; at most kMaxGaps are kept, the last of them then stands for all that
+  /// follow.
+  const std::vector<OniGap>& gaps() const { return gaps_; }
+  std::uint64_t lost_bytes() const { return lost_bytes_; }
+
+  /// The zero bytes after the last record, which OpenNI2 leaves there (a habit, no damage).
+  std::uint64_t zero_tail_bytes() const { return file_.size() - zero_tail_; }
+
+ private:
+  static constexpr std::size_t kMaxGaps = 1000;
+
+  std::optional<OniRecord> record_at(std::uint64_t position) const;
+  bool record_or_end_at(std::uint64_t position);
+  std::uint64_t find_record(std::uint64_t from);
+  std::uint64_t find_zero_tail() const;
+  void add_gap(std::uint64_t begin, std::uint64_t end);
+
+  const InputFile& file_;
+  OniFileHeader header_;
+  std::uint64_t position_ = kOniHeaderSize;
+  std::optional<OniRecord> ahead_;  // the record at position_, if it was looked at already
+  std::uint64_t zero_tail_ = 0;     // from here to the end there are only zeros
+  std::uint64_t lost_bytes_ = 0;
+  std::vector<OniGap> gaps_;
+};
+
+}  // namespace saccade
