@@ -1,7 +1,6 @@
 #include "ui/overlay.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <string>
 
 #include <opencv2/imgproc.hpp>
@@ -13,18 +12,29 @@ namespace {
 
 const cv::Scalar kMark(255, 255, 255), kFirstMark(80, 255, 80), kShadow(0, 0, 0);
 
-// out = background * (1 - a) + turbo(map) * a with a = opacity * sqrt(map), so that the unsalient stays as it
-// was.
+// The map as it is looked at: its lines are a pixel or two wide, so it is smoothed, and scaled to 0..1 after
+// that.
+cv::Mat1f heat(const cv::Mat1f& saliency) {
+  constexpr double kSigmaOfWidth = 1.0 / 200;
+  cv::Mat1f smooth;
+  cv::GaussianBlur(saliency, smooth, {}, std::max(1.0, saliency.cols * kSigmaOfWidth));
+  double largest = 0;
+  cv::minMaxLoc(smooth, nullptr, &largest);
+  return largest > 0 ? cv::Mat1f(smooth / largest) : smooth;
+}
+
+// out = background * (1 - a) + turbo(v) * a with v = sqrt(heat) and a = opacity * v, so that the unsalient
+// stays as it was and the weak is seen beside the strong.
 void blend_map(cv::Mat3b& picture, const cv::Mat1f& saliency, double opacity) {
-  const cv::Mat1b gray = to_gray(saliency);
+  cv::Mat1f shown;
+  cv::sqrt(heat(saliency), shown);
+  cv::Mat1b level;
+  shown.convertTo(level, CV_8U, 255);
   cv::Mat3b colours;
-  cv::applyColorMap(gray, colours, cv::COLORMAP_TURBO);
-  cv::Mat1b weights(1, 256);
-  for (int i = 0; i < 256; ++i)
-    weights(i) = cv::saturate_cast<std::uint8_t>(255 * opacity * std::sqrt(i / 255.0));
+  cv::applyColorMap(level, colours, cv::COLORMAP_TURBO);
   for (int r = 0; r < picture.rows; ++r)
     for (int c = 0; c < picture.cols; ++c) {
-      const int a = weights(gray(r, c));
+      const int a = cvRound(opacity * level(r, c));
       cv::Vec3b& p = picture(r, c);
       const cv::Vec3b& q = colours(r, c);
       for (int i = 0; i < 3; ++i) p[i] = static_cast<std::uint8_t>((p[i] * (255 - a) + q[i] * a + 127) / 255);

@@ -7,8 +7,8 @@
 namespace saccade {
 namespace {
 
-TEST(ColourMap, GrayIsScaledToTheLargestValue) {
-  const cv::Mat1b gray = to_gray((cv::Mat1f(1, 3) << 0, 1, 2));
+TEST(ColourMap, GrayIsTheRootOfTheShareOfTheLargestValue) {
+  const cv::Mat1b gray = to_gray((cv::Mat1f(1, 3) << 0, 0.5, 2));
   EXPECT_EQ(gray(0), 0);
   EXPECT_EQ(gray(1), 128);
   EXPECT_EQ(gray(2), 255);
