@@ -36,8 +36,7 @@ template <typename Number, typename Target>
 bool read_number(string_view text, Number low, Number high, Target& target) {
   const auto value = number<Number>(text);
   if (!value || !(*value >= low && *value <= high)) return false;
-  target = static_cast<typename std::conditional_t<std::is_arithmetic_v<Target>, std::type_identity<Target>,
-                                                   std::type_identity<Number>>::type>(*value);
+  target = *value;
   return true;
 }
 
