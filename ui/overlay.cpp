@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <string>
+#include <vector>
 
 #include <opencv2/imgproc.hpp>
 
@@ -11,6 +12,9 @@ namespace saccade {
 namespace {
 
 const cv::Scalar kMark(255, 255, 255), kFirstMark(80, 255, 80), kShadow(0, 0, 0);
+
+// Marks and lines grow with the picture: 1 at 640 pixels wide.
+double mark_size(const cv::Mat3b& picture) { return std::clamp(picture.cols / 640.0, 0.5, 4.0); }
 
 // The map as it is looked at: its lines are a pixel or two wide, so it is smoothed, and scaled to 0..1 after
 // that.
@@ -41,11 +45,19 @@ void blend_map(cv::Mat3b& picture, const cv::Mat1f& saliency, double opacity) {
     }
 }
 
-void draw_outlines(cv::Mat3b& picture, const cv::Mat1w& masks) {
-  if (masks.empty()) return;
-  for (int r = 0; r + 1 < masks.rows; ++r)
-    for (int c = 0; c + 1 < masks.cols; ++c)
-      if (masks(r, c) != masks(r, c + 1) || masks(r, c) != masks(r + 1, c)) picture(r, c) = {255, 255, 255};
+// The outer contour of each proto-object; pixels without depth inside it are not drawn as holes.
+void draw_outlines(cv::Mat3b& picture, const Attention& attention) {
+  if (attention.masks.empty()) return;
+  const double size = mark_size(picture);
+  const cv::Mat brush = cv::getStructuringElement(cv::MORPH_ELLIPSE, {5, 5});
+  for (std::size_t rank = attention.fixations.size(); rank > 0; --rank) {
+    cv::Mat1b mask = attention.masks == static_cast<double>(rank);
+    cv::morphologyEx(mask, mask, cv::MORPH_CLOSE, brush);
+    std::vector<std::vector<cv::Point>> contours;
+    cv::findContours(mask, contours, cv::RETR_EXTERNAL, cv::CHAIN_APPROX_SIMPLE);
+    cv::drawContours(picture, contours, -1, rank == 1 ? kFirstMark : kMark, std::max(1, cvRound(size)),
+                     cv::LINE_AA);
+  }
 }
 
 void draw_label(cv::Mat3b& picture, const std::string& text, cv::Point centre, double size,
@@ -59,7 +71,7 @@ void draw_label(cv::Mat3b& picture, const std::string& text, cv::Point centre, d
 }
 
 void draw_marks(cv::Mat3b& picture, const std::vector<Fixation>& fixations) {
-  const double size = std::clamp(picture.cols / 640.0, 0.5, 4.0);
+  const double size = mark_size(picture);
   const int radius = cvRound(11 * size), line = std::max(1, cvRound(size));
   for (std::size_t i = 1; i < fixations.size(); ++i)
     cv::line(picture, {fixations[i - 1].col, fixations[i - 1].row}, {fixations[i].col, fixations[i].row},
@@ -79,7 +91,7 @@ cv::Mat3b draw_overlay(const Frame& frame, const cv::Mat1f& saliency, const Atte
                        const OverlayStyle& style) {
   cv::Mat3b picture = frame.colour.empty() ? depth_picture(frame.depth_mm) : cv::Mat3b(frame.colour.clone());
   blend_map(picture, saliency, style.map_opacity);
-  if (style.outlines) draw_outlines(picture, attention.masks);
+  if (style.outlines) draw_outlines(picture, attention);
   if (style.marks) draw_marks(picture, attention.fixations);
   return picture;
 }
