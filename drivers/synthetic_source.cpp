@@ -82,8 +82,8 @@ constexpr std::array<Key, 8> kKeys = {{
      [](string_view v, Spec& s) {
        return s.scene == "table" && read_number<int>(v, 1, scene::kMostTableObjects, s.objects);
      }},
-    {"distance", "mm, 200..10000",
-     [](string_view v, Spec& s) { return read_number<double>(v, 200, 10000, s.distance_mm); }},
+    {"distance", "mm, 400..10000",
+     [](string_view v, Spec& s) { return read_number<double>(v, 400, 10000, s.distance_mm); }},
 }};
 
 std::string known_keys() {
