@@ -22,6 +22,10 @@ namespace saccade {
 ///  5. the interneuron; if it fires it loses its excitation and sets the global inhibition of the next step;
 ///  6. inhibition of return around the winner is added to G_inh of the saliency layer.
 /// "Above" is strict. At the start every V is 0 and the global inhibition is set, as after a winner.
+///
+/// Most cells are never near the threshold, and one that cannot fire touches no other cell. So a cell sleeps
+/// until a bound says that it may fire soon; then the steps that it slept through are made up for. The
+/// winners and their steps are those of the full simulation, to the last bit.
 class WtaNetwork {
  public:
   /// m = 5 counted from one: the map is 1/16 of the image.
@@ -51,16 +55,31 @@ class WtaNetwork {
 
  private:
   bool advance();
+  void wake_cells(int until);
   std::optional<Winner> take_winner();
   void inhibit_return(int row, int col);
+  void add_inhibition(std::size_t begin, std::size_t k);
   bool can_fire_within(int steps) const;
 
+  // Inhibition of return around one winner.
+  struct Inhibition {
+    int step, row, col;
+    double peak;  // nS
+  };
+
   int rows_ = 0, cols_ = 0, step_ = 0, last_new_ = 0;
-  double foa_cells_ = 0, global_ = 0;
+  int last_reset_ = 0;  // step of the last global inhibition
+  int safe_until_ = 0;  // no sleeping cell can fire up to this step
+  double sigma_cells_ = 0, global_ = 0;
   double inter_v_ = 0, inter_excitation_ = 0;
-  std::vector<double> input_, saliency_v_, inhibition_, firing_v_;  // one per cell, row by row
-  std::vector<double> narrow_, wide_;                               // Gaussians of the distance squared
-  std::vector<unsigned char> won_;
+  std::vector<Inhibition> inhibitions_;
+  std::vector<double> narrow_, wide_;  // Gaussians by distance along one axis
+  // One per cell, row by row
+  std::vector<double> current_, surround_;  // pA; nS, all that inhibition of return ever took off
+  std::vector<unsigned char> awake_, won_;
+  // One per cell that is simulated, in the order in which they woke
+  std::vector<int> cell_;
+  std::vector<double> input_, saliency_v_, inhibition_, firing_v_;
   std::string ended_;
 };
 
