@@ -36,8 +36,7 @@ template <typename Number, typename Target>
 bool read_number(string_view text, Number low, Number high, Target& target) {
   const auto value = number<Number>(text);
   if (!value || !(*value >= low && *value <= high)) return false;
-  target = static_cast<typename std::conditional_t<std::is_arithmetic_v<Target>, std::type_identity<Target>,
-                                                   std::type_identity<Number>>::type>(*value);
+  target = *value;
   return true;
 }
 
@@ -83,8 +82,8 @@ constexpr std::array<Key, 8> kKeys = {{
      [](string_view v, Spec& s) {
        return s.scene == "table" && read_number<int>(v, 1, scene::kMostTableObjects, s.objects);
      }},
-    {"distance", "mm, 200..10000",
-     [](string_view v, Spec& s) { return read_number<double>(v, 200, 10000, s.distance_mm); }},
+    {"distance", "mm, 400..10000",
+     [](string_view v, Spec& s) { return read_number<double>(v, 400, 10000, s.distance_mm); }},
 }};
 
 std::string known_keys() {

@@ -24,7 +24,7 @@ struct SyntheticSpec {
   Camera camera = Camera::still;      ///< camera=still | orbit (a slow swing about the scene)
   double rate_hz = 30;                ///< rate=0.1..1000, Hz: of the time stamps and of the orbit
   std::optional<int> objects;         ///< objects=1..20, table only; default 5..9, by the seed
-  std::optional<double> distance_mm;  ///< distance=200..10000, mm from the camera to the middle of the scene
+  std::optional<double> distance_mm;  ///< distance=400..10000, mm from the camera to the middle of the scene
 };
 
 /// Reads "synthetic:NAME?key=value&...". Throws Error (usage) for another scheme, an unknown scene or key, a

@@ -10,8 +10,11 @@ namespace saccade {
 cv::Mat1b to_gray(const cv::Mat1f& map) {
   double largest = 0;
   cv::minMaxLoc(map, nullptr, &largest);
+  if (largest <= 0) return cv::Mat1b(map.size(), std::uint8_t{0});
+  cv::Mat1f root;
+  cv::sqrt(map / largest, root);
   cv::Mat1b gray;
-  map.convertTo(gray, CV_8U, largest > 0 ? 255 / largest : 0);
+  root.convertTo(gray, CV_8U, 255);
   return gray;
 }
 

@@ -1,8 +1,8 @@
 #include "ui/overlay.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <string>
+#include <vector>
 
 #include <opencv2/imgproc.hpp>
 
@@ -13,29 +13,51 @@ namespace {
 
 const cv::Scalar kMark(255, 255, 255), kFirstMark(80, 255, 80), kShadow(0, 0, 0);
 
-// out = background * (1 - a) + turbo(map) * a with a = opacity * sqrt(map), so that the unsalient stays as it
-// was.
+// Marks and lines grow with the picture: 1 at 640 pixels wide.
+double mark_size(const cv::Mat3b& picture) { return std::clamp(picture.cols / 640.0, 0.5, 4.0); }
+
+// The map as it is looked at: its lines are a pixel or two wide, so it is smoothed, and scaled to 0..1 after
+// that.
+cv::Mat1f heat(const cv::Mat1f& saliency) {
+  constexpr double kSigmaOfWidth = 1.0 / 200;
+  cv::Mat1f smooth;
+  cv::GaussianBlur(saliency, smooth, {}, std::max(1.0, saliency.cols * kSigmaOfWidth));
+  double largest = 0;
+  cv::minMaxLoc(smooth, nullptr, &largest);
+  return largest > 0 ? cv::Mat1f(smooth / largest) : smooth;
+}
+
+// out = background * (1 - a) + turbo(v) * a with v = sqrt(heat) and a = opacity * v, so that the unsalient
+// stays as it was and the weak is seen beside the strong.
 void blend_map(cv::Mat3b& picture, const cv::Mat1f& saliency, double opacity) {
-  const cv::Mat1b gray = to_gray(saliency);
+  cv::Mat1f shown;
+  cv::sqrt(heat(saliency), shown);
+  cv::Mat1b level;
+  shown.convertTo(level, CV_8U, 255);
   cv::Mat3b colours;
-  cv::applyColorMap(gray, colours, cv::COLORMAP_TURBO);
-  cv::Mat1b weights(1, 256);
-  for (int i = 0; i < 256; ++i)
-    weights(i) = cv::saturate_cast<std::uint8_t>(255 * opacity * std::sqrt(i / 255.0));
+  cv::applyColorMap(level, colours, cv::COLORMAP_TURBO);
   for (int r = 0; r < picture.rows; ++r)
     for (int c = 0; c < picture.cols; ++c) {
-      const int a = weights(gray(r, c));
+      const int a = cvRound(opacity * level(r, c));
       cv::Vec3b& p = picture(r, c);
       const cv::Vec3b& q = colours(r, c);
       for (int i = 0; i < 3; ++i) p[i] = static_cast<std::uint8_t>((p[i] * (255 - a) + q[i] * a + 127) / 255);
     }
 }
 
-void draw_outlines(cv::Mat3b& picture, const cv::Mat1w& masks) {
-  if (masks.empty()) return;
-  for (int r = 0; r + 1 < masks.rows; ++r)
-    for (int c = 0; c + 1 < masks.cols; ++c)
-      if (masks(r, c) != masks(r, c + 1) || masks(r, c) != masks(r + 1, c)) picture(r, c) = {255, 255, 255};
+// The outer contour of each proto-object; pixels without depth inside it are not drawn as holes.
+void draw_outlines(cv::Mat3b& picture, const Attention& attention) {
+  if (attention.masks.empty()) return;
+  const double size = mark_size(picture);
+  const cv::Mat brush = cv::getStructuringElement(cv::MORPH_ELLIPSE, {5, 5});
+  for (std::size_t rank = attention.fixations.size(); rank > 0; --rank) {
+    cv::Mat1b mask = attention.masks == static_cast<double>(rank);
+    cv::morphologyEx(mask, mask, cv::MORPH_CLOSE, brush);
+    std::vector<std::vector<cv::Point>> contours;
+    cv::findContours(mask, contours, cv::RETR_EXTERNAL, cv::CHAIN_APPROX_SIMPLE);
+    cv::drawContours(picture, contours, -1, rank == 1 ? kFirstMark : kMark, std::max(1, cvRound(size)),
+                     cv::LINE_AA);
+  }
 }
 
 void draw_label(cv::Mat3b& picture, const std::string& text, cv::Point centre, double size,
@@ -49,7 +71,7 @@ void draw_label(cv::Mat3b& picture, const std::string& text, cv::Point centre, d
 }
 
 void draw_marks(cv::Mat3b& picture, const std::vector<Fixation>& fixations) {
-  const double size = std::clamp(picture.cols / 640.0, 0.5, 4.0);
+  const double size = mark_size(picture);
   const int radius = cvRound(11 * size), line = std::max(1, cvRound(size));
   for (std::size_t i = 1; i < fixations.size(); ++i)
     cv::line(picture, {fixations[i - 1].col, fixations[i - 1].row}, {fixations[i].col, fixations[i].row},
@@ -69,7 +91,7 @@ cv::Mat3b draw_overlay(const Frame& frame, const cv::Mat1f& saliency, const Atte
                        const OverlayStyle& style) {
   cv::Mat3b picture = frame.colour.empty() ? depth_picture(frame.depth_mm) : cv::Mat3b(frame.colour.clone());
   blend_map(picture, saliency, style.map_opacity);
-  if (style.outlines) draw_outlines(picture, attention.masks);
+  if (style.outlines) draw_outlines(picture, attention);
   if (style.marks) draw_marks(picture, attention.fixations);
   return picture;
 }

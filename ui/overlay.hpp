@@ -8,9 +8,9 @@
 namespace saccade {
 
 struct OverlayStyle {
-  double map_opacity = 0.55;  ///< of the most salient pixel, 0..1; less salient ones are more transparent
-  bool outlines = true;       ///< of the proto-objects
-  bool marks = true;          ///< numbered fixations and the scan path between them
+  double map_opacity = 0.8;  ///< of the most salient pixel, 0..1; less salient ones are more transparent
+  bool outlines = true;      ///< of the proto-objects
+  bool marks = true;         ///< numbered fixations and the scan path between them
 };
 
 /// The frame's colour image (its depth where it has none) with the map over it in turbo colours and the

@@ -67,7 +67,7 @@ Json summary_json(const RunReport& report) {
   Json json = {{"program", "saccade"}, {"version", kVersion}, {"status", report.status}};
   if (!report.error.empty()) json["error"] = report.error;
   json["out"] = report.out;
-  json["frames"] = ledger_json(report.ledger);
+  json["ledger"] = ledger_json(report.ledger);
   json["wall_s"] = rounded(report.wall_s);
   json["frames_per_s"] = rounded(rate);
   json["stages_ms"] = stages_json(report.stages);

@@ -152,7 +152,7 @@ void KinectModel::sense(std::uint64_t key, cv::Mat1f& depth_mm) {
       z = 0;
       if (exact == 0 || (bits >> 48) < loss_(r, c)) continue;
       const float step = exact + noise_[static_cast<std::size_t>(c)] + white * gaussian(bits);
-      const int whole = static_cast<int>(step + 0.5f);
+      const int whole = cvRound(step);
       if (whole > 0 && whole <= last_step) z = depth_of_step_[static_cast<std::size_t>(whole)];
     }
   }

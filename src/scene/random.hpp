@@ -27,7 +27,8 @@ constexpr float gaussian(std::uint64_t bits) {
   return static_cast<float>(sum - 2 * 4095) * 4.22852e-4f;            // 1 / sqrt(4 * (4096^2 - 1) / 12)
 }
 
-/// A stream of random numbers for laying out a scene.
+/// A stream of random numbers for laying out a scene. The order of draws is part of a scene: at most one draw
+/// among the arguments of a call, since their order of evaluation is the compiler's; braces keep theirs.
 class Random {
  public:
   explicit Random(std::uint64_t seed) : key_(mix(seed)) {}

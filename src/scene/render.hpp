@@ -9,7 +9,7 @@ namespace saccade::scene {
 
 /// What a perfect camera sees of a scene. All H x W.
 struct SceneRender {
-  cv::Mat1f depth_mm;  ///< along the optical axis, exact to the last bit of float; 0 = the ray hits nothing
+  cv::Mat1f depth_mm;  ///< along the optical axis, found in double; 0 = the ray hits nothing
   cv::Mat3f normals;   ///< unit, camera frame, towards the camera; (0,0,0) = no surface
   cv::Mat1w labels;    ///< Part::label; 0 where there is no surface
   cv::Mat1w parts;     ///< index into Scene::parts plus 1; 0 = no surface

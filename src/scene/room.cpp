@@ -85,9 +85,9 @@ void add_shelf(Scene& scene, int& label, const Vector3d& place, Random& random) 
     double x = -kWidth / 2 + random.between(40, 160);
     const double end = x + random.between(220, 520);
     for (int book = 0; x < end; ++book) {
-      const double width = random.between(28, 62);
-      books.block(x + width / 2, -10, z + 28, width, random.between(170, 230), random.between(200, 300),
-                  {object_colour(random, book)});
+      const double width = random.between(28, 62), depth = random.between(170, 230),
+                   height = random.between(200, 300);
+      books.block(x + width / 2, -10, z + 28, width, depth, height, {object_colour(random, book)});
       x += width + 1;
     }
   }
@@ -112,9 +112,10 @@ void add_plant(Furniture plant) {
 void add_small_things(Scene& scene, int& label, const Vector3d& table, double side, Random& random) {
   const double top = 420;
   const auto on_table = [&](double x, double y) { return Vector3d(table + Vector3d(x, y, top)); };
+  const Finish glaze{object_colour(random, 4), Texture::plain, 0.3};
   Furniture(scene, ++label, on_table(-260, 40), 0)
-      .add(Bowl{130, 122}, {0, 0, 138}, {object_colour(random, label), Texture::plain, 0.3})
-      .add(Frustum{60, 55, 20}, {0, 0, 0}, {object_colour(random, label)});
+      .add(Bowl{130, 122}, {0, 0, 138}, glaze)
+      .add(Frustum{60, 55, 20}, {0, 0, 0}, glaze);
   Furniture(scene, ++label, on_table(random.between(-40, 60), 90), 0)
       .add(Frustum{55, 90, 210}, {0, 0, 0}, {object_colour(random, label), Texture::striped, 0.3});
   Furniture(scene, ++label, on_table(280, -60), random.between(-40, 40))
@@ -133,22 +134,25 @@ void lay_out_room(Scene& scene, Random& random) {
   const Vector3d sofa(side * -480, 1950 + random.between(-60, 60), 0);
   const cv::Vec3d cloth = object_colour(random, random.whole(0, 9));
   add_sofa(Furniture(scene, ++label, sofa, 0), {0.8 * cloth, Texture::speckled, 0});
-  for (const double x : {-1.0, 1.0})
-    Furniture(scene, ++label, sofa + Vector3d(x * random.between(420, 560), 130, 590), 0)
+  for (const double x : {-1.0, 1.0}) {  // cushions
+    const double place = x * random.between(420, 560), lean = x * random.between(5, 25);
+    Furniture(scene, ++label, sofa + Vector3d(place, 130, 590), 0)
         .add(Box{{190, 60, 180}}, {0, 0, 0}, {object_colour(random, label), Texture::speckled, 0},
-             about_y(x * random.between(5, 25)) * about_x(-18));
+             about_y(lean) * about_x(-18));
+  }
 
   const Vector3d table(side * -300, 800 + random.between(-80, 80), 0);
   add_low_table(Furniture(scene, ++label, table, random.between(-8, 8)),
                 {{0.35, 0.5, 0.66}, Texture::plain, 0.1});
   add_small_things(scene, label, table, side, random);
   add_shelf(scene, label, {side * 1450, kBack - 180, 0}, random);
-  add_armchair(Furniture(scene, ++label, {side * 1250, 950 + random.between(-100, 100), 0},
-                         side * random.between(-70, -45)),
-               {object_colour(random, label), Texture::speckled, 0});
+  const Vector3d chair(side * 1250, 950 + random.between(-100, 100), 0);
+  const double chair_turn = side * random.between(-70, -45);
+  add_armchair(Furniture(scene, ++label, chair, chair_turn),
+               {object_colour(random, 7), Texture::speckled, 0});
   add_lamp(Furniture(scene, ++label, {side * 700, kBack - 350, 0}, 0));
-  add_plant(
-      Furniture(scene, ++label, {side * -1700, 1900 + random.between(-100, 100), 0}, random.between(0, 360)));
+  const Vector3d plant(side * -1700, 1900 + random.between(-100, 100), 0);
+  add_plant(Furniture(scene, ++label, plant, random.between(0, 360)));
 
   scene.target_mm = {0, 1300, 620};
   scene.eye_mm = {side * random.between(0, 250), -1750, 1600};

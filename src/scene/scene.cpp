@@ -43,8 +43,9 @@ Matrix3d about_z(double degrees) { return about(2, degrees); }
 
 cv::Vec3d object_colour(Random& random, int number) {
   constexpr double kGoldenTurn = 0.61803398875;
-  return from_hue(number * kGoldenTurn + random.between(0, 0.08), random.between(0.5, 0.8),
-                  random.between(0.65, 0.95));
+  const double hue = number * kGoldenTurn + random.between(0, 0.08);
+  const double saturation = random.between(0.5, 0.8), value = random.between(0.65, 0.95);
+  return from_hue(hue, saturation, value);
 }
 
 Pose Pose::look_at(const Vector3d& eye, const Vector3d& target) {

@@ -26,7 +26,7 @@ struct Piece {
 };
 
 Piece box_piece(Random& random) {
-  const Vector3d half(random.between(28, 75), random.between(22, 60), random.between(25, 90));
+  const Vector3d half{random.between(28, 75), random.between(22, 60), random.between(25, 90)};
   return {{{Box{half}, {0, 0, half.z()}, Matrix3d::Identity(), 0, {}, Texture::speckled, 0.05}},
           std::hypot(half.x(), half.y())};
 }

@@ -40,9 +40,9 @@ TEST_F(RunErrorsTest, OptionsOutOfRange) {
   expect(kUsage, "3..127", {"--kernel", "2"});
   expect(kUsage, "3..127", {"--kernel", "128"});
   expect(kUsage, "symmetry3d", {"--model", "nonsense"});
-  expect(kUsage, "level 4 has only 10x8 pixels", {"--levels", "0..5"},
+  expect(kUsage, "level 5 has only 5x4 pixels", {"--levels", "0..5"},
          "synthetic:table?frames=1&size=160x128");
-  expect(kUsage, "try --levels 0..3", {"--levels", "0..9"});
+  expect(kUsage, "try --levels 0..4", {"--levels", "0..9"});
   expect(kUsage, "fx,fy,cx,cy", {"--intrinsics", "nan,525,320,240"});
   expect(kUsage, "fx,fy,cx,cy", {"--intrinsics=-525,525,320,240"});
   expect(kUsage, "maps, levels", {"--dump", "everything"});

@@ -79,7 +79,7 @@ TEST_F(RunTest, WritesMapsOverlaysFixationsAndManifest) {
 
   const json manifest = json::parse(text("out/manifest.json"));
   EXPECT_EQ(manifest["status"], "done");
-  EXPECT_EQ(manifest["frames"], json({{"captured", 6}, {"processed", 6}, {"dropped", 0}, {"rejected", 0}}));
+  EXPECT_EQ(manifest["ledger"], json({{"captured", 6}, {"processed", 6}, {"dropped", 0}, {"rejected", 0}}));
   EXPECT_EQ(manifest["settings"]["kernel"], 15);
   EXPECT_EQ(manifest["settings"]["levels"], "0..2");
   EXPECT_EQ(manifest["intrinsics"]["fx"], 525.0 / 4);
@@ -139,7 +139,7 @@ TEST_F(RunTest, StartEveryAndFramesKeepTheSourcesIndices) {
 TEST_F(RunTest, JsonIsAllThatIsOnStandardOutput) {
   const Outcome outcome = run("out", {"--json", "--frames", "2"});
   const json summary = json::parse(outcome.out);
-  EXPECT_EQ(summary["frames"]["processed"], 2);
+  EXPECT_EQ(summary["ledger"]["processed"], 2);
   EXPECT_EQ(summary["status"], "done");
   EXPECT_EQ(run("out", {"--quiet", "--frames", "1"}).out, "");
 }
@@ -167,7 +167,7 @@ TEST_F(RunTest, UnusableFramesAreRejectedAndTheRestIsProcessed) {
   const Outcome outcome = run("out", {}, folder_.string());
   EXPECT_THAT(outcome.err, ::testing::HasSubstr("frame 2 rejected: 0002_depth.png"));
   const json manifest = json::parse(text("out/manifest.json"));
-  EXPECT_EQ(manifest["frames"], json({{"captured", 4}, {"processed", 3}, {"dropped", 0}, {"rejected", 1}}));
+  EXPECT_EQ(manifest["ledger"], json({{"captured", 4}, {"processed", 3}, {"dropped", 0}, {"rejected", 1}}));
   EXPECT_EQ(manifest["rejected"][0]["frame"], 2);
   EXPECT_TRUE(fs::exists(folder_ / "out/000003_saliency.tiff"));
 }
@@ -190,7 +190,7 @@ TEST_F(RunTest, InterruptingLeavesWholeFilesAndSaysSo) {
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   const json manifest = json::parse(text("out/manifest.json"));
   EXPECT_EQ(manifest["status"], "interrupted");
-  const json& ledger = manifest["frames"];
+  const json& ledger = manifest["ledger"];
   const auto processed = ledger["processed"].get<std::int64_t>();
   EXPECT_EQ(ledger["captured"], processed + ledger["dropped"].get<std::int64_t>());
   EXPECT_EQ(lines("out/fixations.jsonl").size(), static_cast<std::size_t>(processed));

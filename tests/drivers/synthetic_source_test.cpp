@@ -91,8 +91,8 @@ TEST(SyntheticSpec, NamesWhatIsWrongAndWhatIsKnown) {
       {"synthetic:table?objects=0", "'0'", "1..20"},
       {"synthetic:table?objects=21", "'21'", "1..20"},
       {"synthetic:room?objects=5", "'5'", "table only"},
-      {"synthetic:table?distance=100", "'100'", "200..10000"},
-      {"synthetic:table?distance=inf", "'inf'", "200..10000"},
+      {"synthetic:table?distance=399", "'399'", "400..10000"},
+      {"synthetic:table?distance=inf", "'inf'", "400..10000"},
   };
   for (const auto& wrong : kCases) {
     SCOPED_TRACE(wrong.uri);

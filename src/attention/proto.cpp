@@ -1,0 +1,205 @@
+#include "attention/proto.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "attention/selector.hpp"
+
+namespace saccade {
+namespace {
+
+constexpr int kCell = SurfaceGrid::kCellPx;
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+// The same surface as that of a cell with depth z0.
+bool on_surface(float z, float z0) { return z > 0 && std::abs(z - z0) <= SurfaceGrid::kSameSurface * z0; }
+
+// The cell's pixel of the highest saliency on its surface. There is one: the pixel that its depth was
+// gathered around.
+cv::Point fixated_pixel(const cv::Mat1f& saliency, const cv::Mat1f& depth_mm, int row, int col, float z0) {
+  cv::Point best(-1, -1);
+  for (int r = row * kCell; r < std::min((row + 1) * kCell, depth_mm.rows); ++r)
+    for (int c = col * kCell; c < std::min((col + 1) * kCell, depth_mm.cols); ++c)
+      if (on_surface(depth_mm(r, c), z0) && (best.x < 0 || saliency(r, c) > saliency(best))) best = {c, r};
+  return best;
+}
+
+void mean_of_cells(const cv::Mat1f& saliency, int rows, int cols, std::vector<float>& means) {
+  means.assign(at(rows) * at(cols), 0.0F);
+  constexpr float kShare = 1.0F / (kCell * kCell);
+  for (int r = 0; r < saliency.rows; ++r) {
+    const float* line = saliency[r];
+    float* out = &means[at(r / kCell) * at(cols)];
+    const int whole = saliency.cols / kCell;
+    for (int c = 0; c < whole; ++c) {
+      const float* s = line + c * kCell;
+      out[c] += ((s[0] + s[1]) + (s[2] + s[3])) * kShare;
+    }
+    for (int c = whole * kCell; c < saliency.cols; ++c) out[whole] += line[c] * kShare;
+  }
+}
+
+}  // namespace
+
+void smooth_cells(const cv::Mat1f& saliency, std::vector<float>& scratch, std::vector<float>& smooth) {
+  constexpr std::array<float, 5> kWeights = {70.0F / 256, 56.0F / 256, 28.0F / 256, 8.0F / 256, 1.0F / 256};
+  const int rows = (saliency.rows + kCell - 1) / kCell, cols = (saliency.cols + kCell - 1) / kCell;
+  mean_of_cells(saliency, rows, cols, scratch);
+  smooth.assign(scratch.size(), 0.0F);
+  const auto add = [](const float* from, float* to, int count, float weight) {
+    for (int i = 0; i < count; ++i) to[i] += from[i] * weight;
+  };
+  for (int r = 0; r < rows; ++r)
+    for (int d = -4; d <= 4; ++d)
+      if (r + d >= 0 && r + d < rows)
+        add(&scratch[at((r + d) * cols)], &smooth[at(r * cols)], cols, kWeights[at(std::abs(d))]);
+  scratch.swap(smooth);
+  std::fill(smooth.begin(), smooth.end(), 0.0F);
+  for (int r = 0; r < rows; ++r)
+    for (int d = -4; d <= 4; ++d)
+      if (const int count = cols - std::abs(d); count > 0)
+        add(&scratch[at(r * cols + std::max(0, d))], &smooth[at(r * cols + std::max(0, -d))], count,
+            kWeights[at(std::abs(d))]);
+}
+
+ProtoSelector::ProtoSelector(int fixations) : fixations_(fixations) {
+  if (fixations < 1) throw std::invalid_argument("ProtoSelector: at least one fixation");
+}
+
+void ProtoSelector::select(const cv::Mat1f& saliency, const cv::Mat1f& depth_mm, const Intrinsics& camera,
+                           Attention& attention) {
+  begin_attention(saliency, depth_mm, camera, attention);
+  grid_.build(depth_mm, camera);
+  patches_.grow(grid_);
+  smooth_cells(saliency, scratch_, value_);
+  weigh();
+  list_cells_of_patches();
+  for (int rank = 1; rank <= fixations_; ++rank) {
+    int row = 0, col = 0;
+    if (!find_winner(row, col)) {
+      attention.ended_early = rank == 1 ? "nothing salient where there is depth"
+                                        : "nothing salient is left beside the proto-objects found";
+      return;
+    }
+    const cv::Point pixel =
+        fixated_pixel(saliency, depth_mm, row, col, grid_.depth_mm()[at(row * grid_.cols() + col)]);
+    Fixation fixation = fixation_at(saliency, depth_mm, camera, pixel.y, pixel.x);
+    collect_proto_object(row, col);
+    fixation.proto_object = paint(depth_mm, camera, attention.masks, rank);
+    inhibit();
+    attention.fixations.push_back(fixation);
+  }
+}
+
+void ProtoSelector::weigh() {
+  row_best_.assign(at(grid_.rows()), 0.0F);
+  for (int r = 0, i = 0; r < grid_.rows(); ++r)
+    for (int c = 0; c < grid_.cols(); ++c, ++i) {
+      const int patch = patches_.of_cell()[at(i)];
+      if (grid_.depth_mm()[at(i)] == 0)
+        value_[at(i)] = 0;
+      else if (patch != Patches::kNone && patches_.is_support(patch))
+        value_[at(i)] *= kSupportWeight;
+      row_best_[at(r)] = std::max(row_best_[at(r)], value_[at(i)]);
+    }
+}
+
+// The cells sorted by patch, those of no patch first: cells_of_patch_[first_of_patch_[p + 1] ...) for p.
+void ProtoSelector::list_cells_of_patches() {
+  first_of_patch_.assign(at(patches_.count() + 2), 0);
+  for (int patch : patches_.of_cell()) ++first_of_patch_[at(patch + 1)];
+  int sum = 0;
+  for (int& first : first_of_patch_) {
+    const int cells = first;
+    first = sum;
+    sum += cells;
+  }
+  cells_of_patch_.resize(grid_.size());
+  for (int i = 0; i < static_cast<int>(grid_.size()); ++i)
+    cells_of_patch_[at(first_of_patch_[at(patches_.of_cell()[at(i)] + 1)]++)] = i;
+  // Each entry has moved to the end of its patch, which is the beginning of the next.
+  std::move_backward(first_of_patch_.begin(), first_of_patch_.end() - 1, first_of_patch_.end());
+  first_of_patch_[0] = 0;
+  object_.reserve(grid_.size());
+  in_object_.assign(grid_.size(), 0);
+}
+
+bool ProtoSelector::find_winner(int& row, int& col) const {
+  const auto best = std::max_element(row_best_.begin(), row_best_.end());
+  if (!(*best > 0)) return false;
+  row = static_cast<int>(best - row_best_.begin());
+  const auto begin = value_.begin() + row * grid_.cols();
+  col = static_cast<int>(std::find(begin, begin + grid_.cols(), *best) - begin);
+  return true;
+}
+
+void ProtoSelector::collect_proto_object(int row, int col) {
+  const int cols = grid_.cols(), patch = patches_.of_cell()[at(row * cols + col)];
+  const bool whole = patch != Patches::kNone && !patches_.is_support(patch);
+  object_.clear();
+  for (int k = first_of_patch_[at(patch + 1)]; k < first_of_patch_[at(patch + 2)]; ++k) {
+    const int i = cells_of_patch_[at(k)], down = i / cols - row, right = i % cols - col;
+    if (whole || down * down + right * right <= kDiscCells * kDiscCells) object_.push_back(i);
+  }
+}
+
+// Sets the values of the proto-object and of its margin to 0. Only cells at its rim reach beyond it.
+void ProtoSelector::inhibit() {
+  const int cols = grid_.cols(), rows = grid_.rows();
+  for (int i : object_) in_object_[at(i)] = 1;
+  int top = rows, bottom = -1;
+  for (int i : object_) {
+    const int r = i / cols, c = i % cols;
+    value_[at(i)] = 0;
+    top = std::min(top, r), bottom = std::max(bottom, r);
+    const bool inner = r > 0 && c > 0 && r + 1 < rows && c + 1 < cols && in_object_[at(i - 1)] &&
+                       in_object_[at(i + 1)] && in_object_[at(i - cols)] && in_object_[at(i + cols)];
+    if (!inner) clear_disc(r, c, kMarginCells);
+  }
+  for (int i : object_) in_object_[at(i)] = 0;
+  for (int r = std::max(0, top - kMarginCells); r <= std::min(rows - 1, bottom + kMarginCells); ++r)
+    row_best_[at(r)] = *std::max_element(value_.begin() + r * cols, value_.begin() + (r + 1) * cols);
+}
+
+void ProtoSelector::clear_disc(int row, int col, int radius) {
+  for (int v = -radius; v <= radius; ++v) {
+    if (row + v < 0 || row + v >= grid_.rows()) continue;
+    for (int u = -radius; u <= radius; ++u)
+      if (v * v + u * u <= radius * radius && col + u >= 0 && col + u < grid_.cols())
+        value_[at((row + v) * grid_.cols() + col + u)] = 0;
+  }
+}
+
+// Writes `rank` on the pixels of the present proto-object and measures them.
+ProtoObject ProtoSelector::paint(const cv::Mat1f& depth_mm, const Intrinsics& camera, cv::Mat1w& masks,
+                                 int rank) const {
+  ProtoObject object;
+  cv::Point3d sum;
+  constexpr double kFar = std::numeric_limits<double>::max();
+  cv::Point3d low(kFar, kFar, kFar), high(-kFar, -kFar, -kFar);
+  for (int i : object_) {
+    const float z0 = grid_.depth_mm()[at(i)];
+    const int top = i / grid_.cols() * kCell, left = i % grid_.cols() * kCell;
+    for (int r = top; r < std::min(top + kCell, depth_mm.rows); ++r)
+      for (int c = left; c < std::min(left + kCell, depth_mm.cols); ++c) {
+        const float z = depth_mm(r, c);
+        if (!on_surface(z, z0)) continue;
+        masks(r, c) = static_cast<ushort>(rank);
+        ++object.pixels;
+        const cv::Point3d p = camera.point_mm(r, c, static_cast<double>(z));
+        sum += p;
+        low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+        high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+      }
+  }
+  if (object.pixels == 0) return object;
+  object.centroid_mm = sum / object.pixels;
+  object.extent_mm = high - low;
+  return object;
+}
+
+}  // namespace saccade

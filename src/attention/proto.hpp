@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "attention/attention.hpp"
+#include "attention/patches.hpp"
+#include "attention/surface_grid.hpp"
+
+namespace saccade {
+
+/// Mean of `saliency` over each cell of the grid (pixels beyond the border count as 0), smoothed along rows
+/// and columns by the binomial [1 8 28 56 70 56 28 8 1]/256 (a Gaussian of 1.4 cells; 0 beyond the border).
+/// `scratch` and `smooth` (row by row) are reused.
+void smooth_cells(const cv::Mat1f& saliency, std::vector<float>& scratch, std::vector<float>& smooth);
+
+/// Selector `proto`: one fixation per proto-object.
+///
+/// Works on the cells of SurfaceGrid. The saliency is smoothed (smooth_cells); cells without depth are out of
+/// the race. Cells of a support (Patches) count kSupportWeight of their value: coarse pyramid levels spread
+/// an object's saliency over the table before it, and a plane behind the things is no object while there are
+/// others. Then, as often as asked:
+///  - the winner is the cell with the largest value; ties: lowest row, then lowest column;
+///  - the fixation is its pixel of the highest saliency on the cell's surface; ties as before;
+///  - its proto-object is the patch of the cell; on a support, or where there is no patch, it is what of it
+///    lies within kDiscCells;
+///  - the proto-object and a margin of kMarginCells around it are inhibited: their values become 0.
+/// It ends early when no value above 0 is left. A mask holds the pixels of the proto-object's cells that lie
+/// on its surface, not the margin; masks do not overlap.
+class ProtoSelector : public AttentionSelector {
+ public:
+  static constexpr float kSupportWeight = 0.02F;
+  static constexpr int kDiscCells = 10;   ///< radius; 40 px
+  static constexpr int kMarginCells = 3;  ///< radius; 12 px
+
+  /// Throws std::invalid_argument unless fixations >= 1.
+  explicit ProtoSelector(int fixations);
+  void select(const cv::Mat1f& saliency, const cv::Mat1f& depth_mm, const Intrinsics& camera,
+              Attention& attention) override;
+
+ private:
+  void weigh();
+  void list_cells_of_patches();
+  bool find_winner(int& row, int& col) const;
+  void collect_proto_object(int row, int col);
+  void inhibit();
+  void clear_disc(int row, int col, int radius);
+  ProtoObject paint(const cv::Mat1f& depth_mm, const Intrinsics& camera, cv::Mat1w& masks, int rank) const;
+
+  int fixations_;
+  SurfaceGrid grid_;
+  Patches patches_;
+  std::vector<float> scratch_, value_;
+  std::vector<float> row_best_;  ///< largest value of each row
+  std::vector<int> first_of_patch_, cells_of_patch_;
+  std::vector<int> object_;               ///< cells of the present proto-object
+  std::vector<unsigned char> in_object_;  ///< the same, by cell
+};
+
+}  // namespace saccade

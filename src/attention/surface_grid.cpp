@@ -1,0 +1,222 @@
+#include "attention/surface_grid.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace saccade {
+namespace {
+
+constexpr int kCell = SurfaceGrid::kCellPx;
+constexpr int kReach = 2;  // cells; of the normals' support and of the baseline of the concavity test
+
+// A depth jump, as a part of the depth; in a sensor whose noise grows with z^2 it must grow so beyond 1 m.
+constexpr float kJump = 0.012F;
+// Concave: the normals kReach cells to both sides turn towards each other by more than this along the line
+// between them (the sine of some 17 degrees; more with the noise of far surfaces).
+constexpr float kConcave = 0.3F, kConcavePerMetre = 0.1F;
+constexpr float kConcaveReach = 0.05F;  // of the depth; farther apart in depth is a jump and no edge
+
+constexpr float kMetre = 1e-3F;
+
+}  // namespace
+
+void SurfaceGrid::build(const cv::Mat1f& depth_mm, const Intrinsics& camera) {
+  rows_ = (depth_mm.rows + kCell - 1) / kCell;
+  cols_ = (depth_mm.cols + kCell - 1) / kCell;
+  constexpr double kMiddle = (kCell - 1) / 2.0;
+  camera_ = camera;
+  camera_.fx /= kCell;
+  camera_.fy /= kCell;
+  camera_.cx = (camera.cx - kMiddle) / kCell;
+  camera_.cy = (camera.cy - kMiddle) / kCell;
+  make_cells(depth_mm);
+  make_normals();
+  find_concave_edges();
+  find_links();
+}
+
+// Of a cell that a jump crosses, or that has gaps or is cut by the border.
+float SurfaceGrid::cell_depth(const cv::Mat1f& depth, int row, int col) const {
+  constexpr std::array<int, kCell> kFromMiddle = {1, 2, 0, 3};
+  const int top = row * kCell, left = col * kCell;
+  const auto at = [&](int v, int u) {
+    return top + v < depth.rows && left + u < depth.cols ? depth(top + v, left + u) : 0.0F;
+  };
+  float z0 = 0;
+  for (int v : kFromMiddle)
+    for (int u : kFromMiddle)
+      if (z0 == 0) z0 = at(v, u);
+  float sum = 0, count = 0;
+  for (int v = 0; v < kCell; ++v)
+    for (int u = 0; u < kCell; ++u) {
+      const float z = at(v, u);
+      if (z == 0 || std::abs(z - z0) > kSameSurface * z0) continue;
+      sum += z;
+      count += 1;
+    }
+  return count > 0 ? sum / count : 0;
+}
+
+void SurfaceGrid::make_cells(const cv::Mat1f& depth) {
+  const std::size_t cells = static_cast<std::size_t>(rows_) * static_cast<std::size_t>(cols_);
+  for (auto* array : {&x_, &y_, &z_, &w_}) array->resize(cells);
+  const auto width = static_cast<std::size_t>(depth.cols);
+  for (auto* array : {&column_low_, &column_high_, &column_sum_}) array->resize(width);
+  float* const low = column_low_.data();
+  float* const high = column_high_.data();
+  float* const sum = column_sum_.data();
+  std::size_t i = 0;
+  for (int r = 0; r < rows_; ++r) {
+    const bool whole_rows = (r + 1) * kCell <= depth.rows;
+    if (whole_rows) {
+      const float *a = depth[r * kCell], *b = depth[r * kCell + 1], *c = depth[r * kCell + 2],
+                  *d = depth[r * kCell + 3];
+      for (std::size_t u = 0; u < width; ++u) {
+        low[u] = std::min(std::min(a[u], b[u]), std::min(c[u], d[u]));
+        high[u] = std::max(std::max(a[u], b[u]), std::max(c[u], d[u]));
+        sum[u] = (a[u] + b[u]) + (c[u] + d[u]);
+      }
+    }
+    const float slope_y = static_cast<float>((r - camera_.cy) / camera_.fy);
+    const float scale_x = static_cast<float>(1 / camera_.fx), middle_x = static_cast<float>(camera_.cx);
+    for (int c = 0; c < cols_; ++c, ++i) {
+      const std::size_t u = static_cast<std::size_t>(c) * kCell;
+      float z = 0;
+      if (whole_rows && u + kCell <= width) {
+        const float lowest = std::min(std::min(low[u], low[u + 1]), std::min(low[u + 2], low[u + 3]));
+        const float highest = std::max(std::max(high[u], high[u + 1]), std::max(high[u + 2], high[u + 3]));
+        if (lowest > 0 && highest - lowest <= kSameSurface * lowest)
+          z = ((sum[u] + sum[u + 1]) + (sum[u + 2] + sum[u + 3])) / (kCell * kCell);
+        else if (highest > 0)
+          z = cell_depth(depth, r, c);
+      } else {
+        z = cell_depth(depth, r, c);
+      }
+      z_[i] = z;
+      w_[i] = z > 0 ? 1 / z : 0;
+      x_[i] = (static_cast<float>(c) - middle_x) * scale_x * z;
+      y_[i] = slope_y * z;
+    }
+  }
+}
+
+void SurfaceGrid::set_normal(std::size_t i, int row, int col, float slope_u, float slope_v, float w) {
+  const float a = slope_u * static_cast<float>(camera_.fx), b = slope_v * static_cast<float>(camera_.fy);
+  const float c = w - slope_u * (static_cast<float>(col) - static_cast<float>(camera_.cx)) -
+                  slope_v * (static_cast<float>(row) - static_cast<float>(camera_.cy));
+  const float scale = -1 / std::sqrt(a * a + b * b + c * c);
+  nx_[i] = a * scale;
+  ny_[i] = b * scale;
+  nz_[i] = c * scale;
+}
+
+// The plane fit with some of the cells missing or on another surface.
+void SurfaceGrid::normal_with_gaps(int row, int col) {
+  constexpr float kFewest = 6;
+  const std::size_t i = static_cast<std::size_t>(row * cols_ + col);
+  const float z0 = z_[i], w0 = w_[i], reach = kSameSurface * z0;
+  float n = 0, su = 0, sv = 0, suu = 0, svv = 0, suv = 0, sw = 0, suw = 0, svw = 0;
+  for (int v = std::max(-kReach, -row); v <= std::min(kReach, rows_ - 1 - row); ++v)
+    for (int u = std::max(-kReach, -col); u <= std::min(kReach, cols_ - 1 - col); ++u) {
+      const std::size_t j = static_cast<std::size_t>((row + v) * cols_ + col + u);
+      const float use = std::abs(z_[j] - z0) <= reach ? 1.0F : 0.0F;  // no depth is far from any depth
+      const float fu = use * static_cast<float>(u), fv = use * static_cast<float>(v), w = use * (w_[j] - w0);
+      n += use, su += fu, sv += fv, suu += fu * fu, svv += fv * fv, suv += fu * fv;
+      sw += w, suw += fu * w, svw += fv * w;
+    }
+  const float uu = n * suu - su * su, vv = n * svv - sv * sv, uv = n * suv - su * sv;
+  const float determinant = uu * vv - uv * uv;
+  if (n < kFewest || determinant <= 0) return;
+  const float uw = n * suw - su * sw, vw = n * svw - sv * sw;
+  const float slope_u = (uw * vv - vw * uv) / determinant, slope_v = (vw * uu - uw * uv) / determinant;
+  set_normal(i, row, col, slope_u, slope_v, w0 + (sw - slope_u * su - slope_v * sv) / n);
+}
+
+// Where all 25 cells are of one surface the sums are separable: five in a row first, then five rows.
+void SurfaceGrid::make_normals() {
+  for (auto* array : {&nx_, &ny_, &nz_}) array->assign(size(), 0.0F);
+  for (auto* array : {&lowest_, &highest_, &sum_, &sum_u_}) array->resize(size());
+  const auto width = static_cast<std::size_t>(cols_);
+  for (std::size_t i = 2; i + 2 < size(); ++i) {  // across the ends of rows too; those are not used
+    const float *z = &z_[i], *w = &w_[i];
+    lowest_[i] = std::min(std::min(std::min(z[-2], z[-1]), std::min(z[1], z[2])), z[0]);
+    highest_[i] = std::max(std::max(std::max(z[-2], z[-1]), std::max(z[1], z[2])), z[0]);
+    sum_[i] = ((w[-2] + w[2]) + (w[-1] + w[1])) + w[0];
+    sum_u_[i] = 2 * (w[2] - w[-2]) + (w[1] - w[-1]);
+  }
+  for (int r = 0; r < rows_; ++r)
+    for (int c = 0; c < cols_; ++c) {
+      const std::size_t i = static_cast<std::size_t>(r) * width + static_cast<std::size_t>(c);
+      if (z_[i] == 0) continue;
+      if (r < kReach || c < kReach || r + kReach >= rows_ || c + kReach >= cols_) {
+        normal_with_gaps(r, c);
+        continue;
+      }
+      const std::size_t a = i - 2 * width, b = i - width, d = i + width, e = i + 2 * width;
+      const float low =
+          std::min(std::min(std::min(lowest_[a], lowest_[b]), std::min(lowest_[d], lowest_[e])), lowest_[i]);
+      const float high = std::max(
+          std::max(std::max(highest_[a], highest_[b]), std::max(highest_[d], highest_[e])), highest_[i]);
+      if (high - z_[i] > kSameSurface * z_[i] || z_[i] - low > kSameSurface * z_[i]) {
+        normal_with_gaps(r, c);
+        continue;
+      }
+      // 25 cells, sum of u^2 = sum of v^2 = 50, all mixed sums 0.
+      const float slope_u = ((sum_u_[a] + sum_u_[e]) + (sum_u_[b] + sum_u_[d]) + sum_u_[i]) / 50;
+      const float slope_v = (2 * (sum_[e] - sum_[a]) + (sum_[d] - sum_[b])) / 50;
+      set_normal(i, r, c, slope_u, slope_v, ((sum_[a] + sum_[e]) + (sum_[b] + sum_[d]) + sum_[i]) / 25);
+    }
+}
+
+// A cell lies on a concave edge if, along one of four directions, the surface turns towards the camera
+// around it. Both ends are kReach cells off, where the normals do not mix the two sides; that makes the edge
+// some cells wide, so that no gap of the noise lets a patch leak through.
+void SurfaceGrid::find_concave_edges() {
+  concave_.assign(size(), 0);
+  const int directions[4][2] = {{0, 1}, {1, 0}, {1, 1}, {1, -1}};
+  for (const auto& [down, right] : directions) {
+    const int step = kReach * (down * cols_ + right);
+    const int first_col = right == 0 ? 0 : kReach, last_col = right == 0 ? cols_ : cols_ - kReach;
+    for (int r = down * kReach; r < rows_ - down * kReach; ++r) {
+      const int begin = r * cols_ + first_col, end = r * cols_ + last_col;
+      for (int k = begin; k < end; ++k) {
+        const auto i = static_cast<std::size_t>(k), a = static_cast<std::size_t>(k - step),
+                   b = static_cast<std::size_t>(k + step);
+        const float px = x_[b] - x_[a], py = y_[b] - y_[a], pz = z_[b] - z_[a], z = z_[i];
+        const float turn = (nx_[b] - nx_[a]) * px + (ny_[b] - ny_[a]) * py + (nz_[b] - nz_[a]) * pz;
+        const float limit = kConcave + kConcavePerMetre * std::max(0.0F, kMetre * z - 1);
+        const float reach = kConcaveReach * z, length2 = px * px + py * py + pz * pz;
+        const bool concave = (turn < 0) & (turn * turn > limit * limit * length2) &
+                             (std::abs(z_[a] - z) <= reach) & (std::abs(z_[b] - z) <= reach) & (nz_[a] != 0) &
+                             (nz_[b] != 0);
+        concave_[i] |= concave ? 1 : 0;
+      }
+    }
+  }
+  convex_.resize(size());
+  for (std::size_t i = 0; i < size(); ++i)
+    convex_[i] = static_cast<std::uint8_t>((nz_[i] != 0) & (concave_[i] == 0));
+}
+
+// Linked: the step in depth, or the distance from the tangent plane of one of the two (which a slanted
+// surface keeps small), is below the jump.
+void SurfaceGrid::find_links() {
+  links_.assign(size(), 0);
+  const auto linked = [this](std::size_t a, std::size_t b) {
+    const float dx = x_[b] - x_[a], dy = y_[b] - y_[a], dz = z_[b] - z_[a];
+    const float jump = kJump * z_[a] * std::max(1.0F, kMetre * z_[a]);
+    const float from_a = std::abs(nx_[a] * dx + ny_[a] * dy + nz_[a] * dz);
+    const float from_b = std::abs(nx_[b] * dx + ny_[b] * dy + nz_[b] * dz);
+    return (z_[a] > 0) & (z_[b] > 0) &
+           ((std::abs(dz) < jump) | ((nz_[a] != 0) & (from_a < jump)) | ((nz_[b] != 0) & (from_b < jump)));
+  };
+  const auto width = static_cast<std::size_t>(cols_);
+  for (std::size_t r = 0, i = 0; r < static_cast<std::size_t>(rows_); ++r)
+    for (std::size_t c = 0; c < width; ++c, ++i) {
+      if (c + 1 < width && linked(i, i + 1)) links_[i] |= kRight, links_[i + 1] |= kLeft;
+      if (i + width < size() && linked(i, i + width)) links_[i] |= kDown, links_[i + width] |= kUp;
+    }
+}
+
+}  // namespace saccade

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <opencv2/core.hpp>
+
+#include "core/intrinsics.hpp"
+
+namespace saccade {
+
+/// The depth image in cells of kCellPx x kCellPx pixels, each with a depth, a point, a normal over a wide
+/// support, and the links to its neighbours: two cells are linked if one surface goes through both.
+/// Arrays are row by row; they and their memory stay until the next build().
+/// Thread safety: one build() at a time per object; reading is free.
+class SurfaceGrid {
+ public:
+  static constexpr int kCellPx = 4;
+
+  /// What a cell is linked to (bits of links()).
+  enum Link : std::uint8_t { kRight = 1, kDown = 2, kLeft = 4, kUp = 8 };
+
+  /// Builds the grid of one frame. depth_mm: H x W, 0 = no reading. The last cells of a row or column may
+  /// hold fewer pixels.
+  void build(const cv::Mat1f& depth_mm, const Intrinsics& camera);
+
+  int rows() const { return rows_; }
+  int cols() const { return cols_; }
+  std::size_t size() const { return z_.size(); }
+
+  /// Depth of each cell: mean over the pixels that differ by at most kSameSurface from the cell's first valid
+  /// pixel, counted from its middle. 0 = no pixel has depth.
+  const std::vector<float>& depth_mm() const { return z_; }
+  const std::vector<float>& inverse_depth() const { return w_; }  ///< 1/mm, 0 = no depth
+
+  /// Unit normals towards the camera, (0,0,0) = none: a plane in inverse depth, as SPEC 1.3, over the 5 x 5
+  /// cells around.
+  const std::vector<float>& normal_x() const { return nx_; }
+  const std::vector<float>& normal_y() const { return ny_; }
+  const std::vector<float>& normal_z() const { return nz_; }
+
+  /// Neighbours of one surface with this cell: no depth jump between them.
+  const std::vector<std::uint8_t>& links() const { return links_; }
+
+  /// 1 where a patch of convex surface can grow: there is a normal, and no concave edge passes.
+  const std::vector<std::uint8_t>& convex() const { return convex_; }
+
+  static constexpr float kSameSurface = 0.02F;  ///< of the depth; beyond it is another surface
+
+ private:
+  void make_cells(const cv::Mat1f& depth_mm);
+  float cell_depth(const cv::Mat1f& depth_mm, int row, int col) const;
+  void make_normals();
+  void normal_with_gaps(int row, int col);
+  void set_normal(std::size_t i, int row, int col, float slope_u, float slope_v, float w);
+  void find_concave_edges();
+  void find_links();
+
+  int rows_ = 0, cols_ = 0;
+  Intrinsics camera_;  ///< of the cells: pixel (row, col) of the grid is the middle of cell (row, col)
+  std::vector<float> x_, y_, z_, w_, nx_, ny_, nz_;
+  std::vector<float> lowest_, highest_, sum_, sum_u_;  ///< of five cells in a row
+  std::vector<float> column_low_, column_high_, column_sum_;
+  std::vector<std::int32_t> concave_;
+  std::vector<std::uint8_t> links_, convex_;
+};
+
+}  // namespace saccade

@@ -1,0 +1,128 @@
+// The axes of the Extended Gaussian Image (section 2.1), compiled once for each instruction set.
+#if defined(SACCADE_SALIENCY_AXES_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef SACCADE_SALIENCY_AXES_INL
+#undef SACCADE_SALIENCY_AXES_INL
+#else
+#define SACCADE_SALIENCY_AXES_INL
+#endif
+
+#include "saliency/level_planes.hpp"
+#include "saliency/row_scratch.hpp"
+#include "saliency/simd-inl.hpp"
+#include "saliency/window_sums-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace saccade {
+namespace HWY_NAMESPACE {
+
+/// Of each pixel of row r: the covariance of the normals, and the sums that the halves are taken from. The
+/// covariance is a difference of nearly equal numbers where surfaces are flat; in double it is exact enough.
+HWY_INLINE void window_statistics(const LevelPlanes& level, int r, int reach, RowScratch& scratch) {
+  using S = RowStatistics;
+  const WideV whole_unit = hn::Set(kWide, 1.0 / (1 << normal_bits(reach)));
+  const WideV eighth = hn::Set(kWide, 1.0 / static_cast<double>(DepthPacking::kUnitsPerMm));
+  const WideV count_unit = hn::Set(kWide, static_cast<double>(level.packing.count_unit));
+  const float* packed = level.row(LevelPlanes::kPacked, r);
+  for (int c = 0; c < level.width(); c += kWideLanes) {
+    const auto whole = [&](WindowSums::Whole i) HWY_ATTR {
+      const std::int32_t* sums = scratch.boxes.whole[static_cast<std::size_t>(i)].data();
+      return hn::Mul(hn::PromoteTo(kWide, hn::Load(kHalfWhole, sums + c)), whole_unit);
+    };
+    const auto depth = [&](WindowSums::Double i) HWY_ATTR {
+      return hn::Load(kWide, scratch.boxes.depth[static_cast<std::size_t>(i)].data() + c);
+    };
+    const auto put = [&](S::Value value, WideV v) HWY_ATTR {
+      hn::Store(hn::DemoteTo(kHalfF, v), kHalfF, scratch.statistics.row(value) + c);
+    };
+    const WideV x = whole(WindowSums::kX), y = whole(WindowSums::kY), z = whole(WindowSums::kZ);
+    const WideV xx = whole(WindowSums::kXX), yy = whole(WindowSums::kYY), zz = whole(WindowSums::kZZ);
+    const WideV n = hn::Round(hn::Add(xx, hn::Add(yy, zz)));  // normals have length 1
+    // n^2 times the covariance: its scale does not matter to the axes.
+    put(S::kCovXX, hn::NegMulAdd(x, x, hn::Mul(n, xx)));
+    put(S::kCovYY, hn::NegMulAdd(y, y, hn::Mul(n, yy)));
+    put(S::kCovZZ, hn::NegMulAdd(z, z, hn::Mul(n, zz)));
+    put(S::kCovXY, hn::NegMulAdd(x, y, hn::Mul(n, whole(WindowSums::kXY))));
+    put(S::kCovXZ, hn::NegMulAdd(x, z, hn::Mul(n, whole(WindowSums::kXZ))));
+    put(S::kCovYZ, hn::NegMulAdd(y, z, hn::Mul(n, whole(WindowSums::kYZ))));
+
+    const auto centre = [&](LevelPlanes::Plane plane) HWY_ATTR {
+      return hn::PromoteTo(kWide, hn::Load(kHalfF, level.row(plane, r) + c));
+    };
+    const WideV z8 = depth(WindowSums::kDepth);
+    const WideV z0 = hn::Sub(hn::PromoteTo(kWide, hn::Load(kHalfF, packed + c)), count_unit);
+    put(S::kCount, hn::Sub(n, hn::Set(kWide, 1.0)));
+    put(S::kZ, hn::Mul(hn::NegMulAdd(n, z0, z8), eighth));
+    put(S::kZRows, depth(WindowSums::kDepthRows));
+    const WideV cols = hn::NegMulAdd(z8, hn::Iota(kWide, static_cast<double>(c)), depth(WindowSums::kDepthCols));
+    put(S::kZCols, hn::Mul(cols, eighth));
+    put(S::kNormalX, hn::Sub(x, centre(LevelPlanes::kNormalX)));
+    put(S::kNormalY, hn::Sub(y, centre(LevelPlanes::kNormalY)));
+    put(S::kNormalZ, hn::Sub(z, centre(LevelPlanes::kNormalZ)));
+  }
+}
+
+/// A symmetric matrix on its way to diagonal form, and the product of the rotations so far.
+struct Diagonalisation {
+  V xx, yy, zz, xy, xz, yz;
+  V axes[3][3];  ///< [axis][component]
+};
+
+/// One Jacobi rotation: makes the element apq 0. arp and arq are the elements that p and q share with the third
+/// index.
+HWY_INLINE void rotate(V& app, V& aqq, V& apq, V& arp, V& arq, V (&axis_p)[3], V (&axis_q)[3]) {
+  const V tiny = set(1e-30f);
+  const V difference = hn::Sub(aqq, app), twice = hn::Add(apq, apq);
+  const V square = hn::Max(hn::MulAdd(difference, difference, hn::Mul(twice, twice)), tiny);
+  const V root = hn::Mul(square, reciprocal_sqrt(square));
+  const V size = hn::Mul(twice, reciprocal(hn::Add(hn::Abs(difference), root)));
+  const V t = hn::Xor(size, hn::And(difference, hn::SignBit(kF)));  // the smaller root: |t| <= 1
+  const V c = reciprocal_sqrt(hn::MulAdd(t, t, set(1.0f))), s = hn::Mul(t, c);
+  app = hn::NegMulAdd(t, apq, app);
+  aqq = hn::MulAdd(t, apq, aqq);
+  apq = zero();
+  const V rp = arp;
+  arp = hn::NegMulAdd(s, arq, hn::Mul(c, rp));
+  arq = hn::MulAdd(s, rp, hn::Mul(c, arq));
+  for (int i = 0; i < 3; ++i) {
+    const V p = axis_p[i];
+    axis_p[i] = hn::NegMulAdd(s, axis_q[i], hn::Mul(c, p));
+    axis_q[i] = hn::MulAdd(s, p, hn::Mul(c, axis_q[i]));
+  }
+}
+
+/// Eigenvectors of the covariance at `kCount` groups of pixels, by cyclic Jacobi rotations. Several groups go
+/// together because each rotation waits for the one before.
+template <int kGroups>
+HWY_INLINE void gaussian_image_axes(const int* columns, RowStatistics& statistics) {
+  using S = RowStatistics;
+  constexpr int kSweeps = 4;
+  Diagonalisation m[kGroups];
+  for (int g = 0; g < kGroups; ++g) {
+    const auto get = [&](S::Value value) HWY_ATTR { return hn::Load(kF, statistics.row(value) + columns[g]); };
+    const V n = hn::Add(get(S::kCount), set(1.0f));
+    const V scale = reciprocal(hn::Max(hn::Mul(n, n), set(1.0f)));
+    m[g].xx = hn::Mul(get(S::kCovXX), scale);
+    m[g].yy = hn::Mul(get(S::kCovYY), scale);
+    m[g].zz = hn::Mul(get(S::kCovZZ), scale);
+    m[g].xy = hn::Mul(get(S::kCovXY), scale);
+    m[g].xz = hn::Mul(get(S::kCovXZ), scale);
+    m[g].yz = hn::Mul(get(S::kCovYZ), scale);
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) m[g].axes[i][j] = set(i == j ? 1.0f : 0.0f);
+  }
+  for (int sweep = 0; sweep < kSweeps; ++sweep) {
+    for (auto& a : m) rotate(a.xx, a.yy, a.xy, a.xz, a.yz, a.axes[0], a.axes[1]);
+    for (auto& a : m) rotate(a.xx, a.zz, a.xz, a.xy, a.yz, a.axes[0], a.axes[2]);
+    for (auto& a : m) rotate(a.yy, a.zz, a.yz, a.xy, a.xz, a.axes[1], a.axes[2]);
+  }
+  for (int g = 0; g < kGroups; ++g)
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j)
+        hn::Store(m[g].axes[i][j], kF, statistics.row(S::kAxis0 + 3 * i + j) + columns[g]);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace saccade
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include <opencv2/core.hpp>
+
+#include "saliency/level_planes.hpp"
+#include "saliency/params.hpp"
+#include "saliency/row_scratch.hpp"
+
+namespace saccade {
+
+/// The stages of the operator for rows [begin, end) of a level, compiled for one instruction set. They write
+/// these rows and nothing else (besides the scratch memory), and a row's bits do not depend on how rows are
+/// divided, except that symmetry_rows() must always be given the same `begin` for the same rows.
+struct Kernels {
+  std::string_view name;  ///< as in Settings::simd: "avx512", ...
+  int lanes;              ///< floats a vector
+
+  /// Depth as it comes from a frame into kDepth and kInverse of level 0; returns the largest. What is not
+  /// above 0 and at most 65535 mm counts as no reading.
+  float (*load_rows)(const cv::Mat1f& depth_mm, LevelPlanes& level, int begin, int end);
+
+  /// Rows of `half`, kDepth and kInverse, from kDepth of `full` (SPEC 1.2), to the bit as reference::halve().
+  void (*halve_rows)(const LevelPlanes& full, LevelPlanes& half, int begin, int end, RowScratch& scratch);
+
+  /// Normals (SPEC 1.3), and from them the operator's points: kUsableInverse and kPacked.
+  void (*normal_rows)(LevelPlanes& level, int begin, int end);
+
+  /// kScore: the operator of section 2 of SPEC, 0..4.
+  void (*symmetry_rows)(LevelPlanes& level, const Symmetry3dParams& params, int begin, int end,
+                        RowScratch& scratch);
+
+  /// Eq. (15), one step of it: kScore of `fine` becomes weight * kScore + the upsampled kScore of `coarse`.
+  void (*add_upsampled_rows)(LevelPlanes& fine, float weight, const LevelPlanes& coarse, int begin, int end,
+                             RowScratch& scratch);
+};
+
+/// The best kernels that `simd` (Settings::simd), the environment variable SACCADE_SIMD, this build and this
+/// machine allow. Throws Error (usage) if one of the two names a set that cannot run here.
+const Kernels& choose_kernels(const std::string& simd);
+
+}  // namespace saccade

@@ -1,0 +1,74 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include <hwy/aligned_allocator.h>
+#include <opencv2/core.hpp>
+
+#include "core/intrinsics.hpp"
+
+namespace saccade {
+
+/// How a pixel's depth and the number one share one float, so that one addition counts and sums. Both parts of
+/// a sum of `rows` pixels stay exact: count_unit exceeds the largest sum of depths, and the whole stays below
+/// 2^24.
+struct DepthPacking {
+  static constexpr float kUnitsPerMm = 8;  ///< depths are summed in 1/8 mm, the grid of the pyramid
+  float count_unit = 0;                    ///< what one pixel adds besides its depth in 1/8 mm
+  int rows = 0;                            ///< so many pixels may be summed before they are unpacked
+
+  /// For an image whose depths are at most `largest_mm`, itself at most 65535.
+  static DepthPacking for_depths_up_to(float largest_mm);
+};
+
+/// One pyramid level as structure of arrays. Around each image there are margins, which hold invalid pixels,
+/// so that the kernels need no test for the border in the columns.
+///
+/// Every plane has height + 2 * kMarginRows rows of `stride` floats; `at(row, col)` is the same place in each
+/// of them. Rows -kMarginRows and columns -margin_cols() may be addressed. Column 0 is aligned to a vector.
+class LevelPlanes {
+ public:
+  enum Plane {
+    kDepth,          ///< z in mm, 0 = no reading
+    kInverse,        ///< 1/z, 0 where there is no reading
+    kUsableInverse,  ///< 1/z of the operator's points, NaN where a pixel has no depth or no normal
+    kPacked,         ///< count and z of the operator's points (DepthPacking), 0 = none
+    kNormalX,        ///< unit normals, 0 = none
+    kNormalY,
+    kNormalZ,
+    kScore,  ///< the symmetry map of this level, then the sum of it and of the coarser ones
+    kPlanes
+  };
+
+  static constexpr int kMarginRows = 2;   ///< what the 5 x 5 windows of the normals reach
+  static constexpr int kVectorFloats = 16;  ///< the widest vector
+
+  /// Memory for an image of `size` seen by windows that reach `reach` columns; all pixels invalid.
+  LevelPlanes(cv::Size size, int reach);
+
+  int width() const { return width_; }
+  int height() const { return height_; }
+  std::ptrdiff_t stride() const { return stride_; }
+  int margin_cols() const { return margin_cols_; }
+
+  float* plane(Plane p) { return planes_[p]; }
+  const float* plane(Plane p) const { return planes_[p]; }
+  std::ptrdiff_t at(int row, int col) const { return row * stride_ + col; }
+  float* row(Plane p, int r) { return planes_[p] + at(r, 0); }
+  const float* row(Plane p, int r) const { return planes_[p] + at(r, 0); }
+
+  /// Multiplies the map of the level, kScore.
+  void scale_scores(float weight);
+
+  Intrinsics camera;     ///< of this level
+  DepthPacking packing;  ///< of kPacked
+
+ private:
+  int width_, height_, margin_cols_;
+  std::ptrdiff_t stride_;
+  hwy::AlignedFreeUniquePtr<float[]> memory_;
+  std::array<float*, kPlanes> planes_{};  // at row 0, column 0
+};
+
+}  // namespace saccade

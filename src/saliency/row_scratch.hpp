@@ -1,0 +1,89 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include <hwy/aligned_allocator.h>
+
+namespace saccade {
+
+/// A row of numbers with margins on both sides that may be read (and hold 0 unless a user writes there).
+template <typename T>
+class PaddedRow {
+ public:
+  static constexpr int kLeft = 128, kRight = 256;
+
+  PaddedRow() = default;
+  explicit PaddedRow(int width) {
+    const std::size_t count = static_cast<std::size_t>(kLeft + width + kRight);
+    memory_ = hwy::AllocateAligned<T>(count);
+    for (std::size_t i = 0; i < count; ++i) memory_[i] = T{};
+  }
+  T* data() { return memory_.get() + kLeft; }  ///< at column 0, aligned to a vector
+
+ private:
+  hwy::AlignedFreeUniquePtr<T[]> memory_;
+};
+
+template <typename T, std::size_t kRows>
+std::array<PaddedRow<T>, kRows> padded_rows(int width) {
+  std::array<PaddedRow<T>, kRows> rows;
+  for (auto& row : rows) row = PaddedRow<T>(width);
+  return rows;
+}
+
+/// Sums over the rows of a window, or over a whole window, for each column. Normals and their products are
+/// whole numbers of a small unit, so that their sums are exact in any order; depths are summed in double.
+struct WindowSums {
+  enum Whole { kX, kY, kZ, kXX, kYY, kZZ, kXY, kXZ, kYZ, kWholes };
+  enum Double { kDepth, kDepthRows, kDepthCols, kDoubles };
+  std::array<PaddedRow<std::int32_t>, kWholes> whole;
+  std::array<PaddedRow<double>, kDoubles> depth;
+
+  explicit WindowSums(int width)
+      : whole(padded_rows<std::int32_t, kWholes>(width)), depth(padded_rows<double, kDoubles>(width)) {}
+};
+
+/// What the operator needs to know at each pixel of a row before it looks at single points.
+struct RowStatistics {
+  enum Value {
+    kCovXX, kCovYY, kCovZZ, kCovXY, kCovXZ, kCovYZ,  ///< of the window's normals
+    kAxis0, kAxis1 = kAxis0 + 3, kAxis2 = kAxis1 + 3,  ///< x, y, z of its eigenvectors
+    kCount = kAxis2 + 3,  ///< sums over the window without its centre, as HalfSums has them
+    kZ, kZRows, kZCols, kNormalX, kNormalY, kNormalZ,
+    kValues
+  };
+  std::array<PaddedRow<float>, kValues> values;
+
+  explicit RowStatistics(int width) : values(padded_rows<float, kValues>(width)) {}
+  float* row(int value) { return values[static_cast<std::size_t>(value)].data(); }
+};
+
+/// Memory of one worker; sized for the widest row and the largest window, and kept between frames.
+struct RowScratch {
+  RowScratch(int width, int reach)
+      : columns(width),
+        column_depth(width),
+        boxes(width),
+        whole_doubling(width),
+        double_doubling(width),
+        statistics(width),
+        halving(padded_rows<double, 4>(width)),
+        upsampling(padded_rows<float, 2>(width)),
+        sweep_terms(hwy::AllocateAligned<float>(static_cast<std::size_t>(3 * (2 * reach + 1) * 16))),
+        groups(hwy::AllocateAligned<int>(static_cast<std::size_t>(width + 16))) {}
+
+  WindowSums columns;                          ///< sums of the window's rows in one column
+  PaddedRow<double> column_depth;              ///< of them, the sum of depths that kDepthRows belongs to
+  WindowSums boxes;                            ///< sums of the whole window
+  PaddedRow<std::int32_t> whole_doubling;      ///< for the sums of a row's neighbours
+  PaddedRow<double> double_doubling;
+  RowStatistics statistics;
+  std::array<PaddedRow<double>, 4> halving;    ///< pyramid: depths and weights of even and of odd columns
+  std::array<PaddedRow<float>, 2> upsampling;  ///< master map
+  hwy::AlignedFreeUniquePtr<float[]> sweep_terms;  ///< the sweep: of each plane, a vector for each row
+  hwy::AlignedFreeUniquePtr<int[]> groups;     ///< first columns of the vectors that hold a point
+};
+
+}  // namespace saccade
