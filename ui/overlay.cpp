@@ -51,7 +51,8 @@ void draw_outlines(cv::Mat3b& picture, const Attention& attention) {
   const double size = mark_size(picture);
   const cv::Mat brush = cv::getStructuringElement(cv::MORPH_ELLIPSE, {5, 5});
   for (std::size_t rank = attention.fixations.size(); rank > 0; --rank) {
-    cv::Mat1b mask = attention.masks == static_cast<double>(rank);
+    cv::Mat1b mask;
+    cv::compare(attention.masks, static_cast<double>(rank), mask, cv::CMP_EQ);
     cv::morphologyEx(mask, mask, cv::MORPH_CLOSE, brush);
     std::vector<std::vector<cv::Point>> contours;
     cv::findContours(mask, contours, cv::RETR_EXTERNAL, cv::CHAIN_APPROX_SIMPLE);

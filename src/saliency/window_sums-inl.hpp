@@ -74,7 +74,7 @@ HWY_INLINE void slide_column_sums(const LevelPlanes& level, int r, int reach, bo
   WindowSums& columns = scratch.columns;
   double* depth = scratch.column_depth.data();
   if (first) {
-    const int width = round_up(level.width(), kLanes);
+    const int width = level.width() + reach + kLanes;  // the margin too: the last level may have been wider
     for (auto& row : columns.whole) std::fill(row.data(), row.data() + width, 0);
     for (auto& row : columns.depth) std::fill(row.data(), row.data() + width, 0.0);
     std::fill(depth, depth + width, 0.0);
