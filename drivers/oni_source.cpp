@@ -40,7 +40,10 @@ OniFormat first_format(const Recording& recording, const OniNode& node) {
   return {};
 }
 
-double period_us(double rate_hz) { return 1e6 / (rate_hz > 0 ? rate_hz : kDefaultRateHz); }
+// Nearest neighbours of two whole streams are at most half a period apart; the rest is for jitter.
+std::uint64_t tolerance_us(double rate_hz) {
+  return static_cast<std::uint64_t>(0.75e6 / (rate_hz > 0 ? rate_hz : kDefaultRateHz));
+}
 
 }  // namespace
 
@@ -68,7 +71,7 @@ void OniSource::fill_info(const std::filesystem::path& path) {
   if (format.crop.size() != format.size)
     info_.notes.push_back(fmt::format("depth is cropped to {} x {} at ({}, {}); the rest has no reading",
                                       format.crop.width, format.crop.height, format.crop.x, format.crop.y));
-  pairing_tolerance_us_ = static_cast<std::uint64_t>(period_us(format.rate_hz));
+  pairing_tolerance_us_ = tolerance_us(format.rate_hz);
   note_colour();
   note_times();
   note_problems();
@@ -77,8 +80,7 @@ void OniSource::fill_info(const std::filesystem::path& path) {
 void OniSource::note_colour() {
   if (colour_ == nullptr) return;
   const OniFormat format = first_format(recording_, *colour_);
-  pairing_tolerance_us_ =
-      std::max(pairing_tolerance_us_, static_cast<std::uint64_t>(period_us(format.rate_hz)));
+  pairing_tolerance_us_ = std::max(pairing_tolerance_us_, tolerance_us(format.rate_hz));
   if (colour_->declared.type == OniNodeType::ir)
     info_.notes.push_back("no colour stream; the infrared picture is shown as grey");
   if (format.size != info_.size)

@@ -9,7 +9,9 @@
 #include <spdlog/spdlog.h>
 #include <CLI/CLI.hpp>
 
+#include "app/oni_command.hpp"
 #include "app/options.hpp"
+#include "app/record_command.hpp"
 #include "app/run_command.hpp"
 #include "core/error.hpp"
 #include "core/version.hpp"
@@ -52,6 +54,9 @@ int run_program(int argc, char** argv) {
       saccade::run(arguments, settings);
     };
   });
+
+  saccade::add_record_command(app, action);
+  saccade::add_oni_command(app, action);
 
   try {
     app.parse(argc, argv);

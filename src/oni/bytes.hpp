@@ -87,6 +87,8 @@ class ByteBuilder {
   std::size_t size() const { return bytes_.size(); }
   std::span<const std::uint8_t> bytes() const { return bytes_; }
   std::vector<std::uint8_t> take() { return std::move(bytes_); }
+  /// Forgets all but the first `size` bytes.
+  void cut(std::size_t size) { bytes_.resize(size); }
   void clear() { bytes_.clear(); }
 
  private:

@@ -176,6 +176,11 @@ void OniProblems::add(std::uint64_t position, OniSeverity severity, std::string 
   if (list_.size() < kMax) list_.push_back({position, severity, std::move(meaning)});
 }
 
+void OniProblems::sort() {
+  std::stable_sort(list_.begin(), list_.end(),
+                   [](const OniProblem& a, const OniProblem& b) { return a.position < b.position; });
+}
+
 std::optional<std::span<const std::uint8_t>> OniNode::property(std::string_view name,
                                                                std::uint64_t before) const {
   const auto found = properties.find(name);

@@ -36,6 +36,8 @@ class OniProblems {
   static constexpr std::size_t kMax = 1000;
 
   void add(std::uint64_t position, OniSeverity severity, std::string meaning);
+  /// Brings them into the order of the file.
+  void sort();
   const std::vector<OniProblem>& list() const { return list_; }
   /// Of that severity, those beyond the kept ones included.
   std::size_t count(OniSeverity severity) const { return counts_[static_cast<std::size_t>(severity)]; }

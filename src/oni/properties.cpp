@@ -33,7 +33,7 @@ constexpr std::array<std::pair<std::string_view, OniPropertySize>, 15> kKnown = 
     {kRegistered, exactly(8)},
     {kDropped, exactly(8)},
     {kRounded, exactly(8)},
-    {kVersion, {1, kOniMaxName, 1}},
+    {kWrittenBy, {1, kOniMaxName, 1}},
 }};
 
 OniPixelFormat default_format(OniNodeType type) {

@@ -32,8 +32,8 @@ constexpr std::string_view kRegistered = "saccadeRegistered";  ///< int 1 = colo
 constexpr std::string_view kDropped =
     "saccadeDroppedFrames";  ///< int, frames that were captured and not written
 constexpr std::string_view kRounded =
-    "saccadeRoundedFrames";                              ///< int, frames whose depth did not fit the unit
-constexpr std::string_view kVersion = "saccadeVersion";  ///< string, the program that wrote the file
+    "saccadeRoundedFrames";                                ///< int, frames whose depth did not fit the unit
+constexpr std::string_view kWrittenBy = "saccadeVersion";  ///< string, the program that wrote the file
 }  // namespace oni_property
 
 /// The sizes that the value of a known property may have, bytes.

@@ -1,0 +1,174 @@
+#include "oni/check.hpp"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "oni/bytes.hpp"
+#include "oni/walker.hpp"
+
+namespace saccade {
+namespace {
+
+class Checker {
+ public:
+  explicit Checker(Recording& recording) : recording_(recording), index_(recording.index()) {
+    problems_ = index_.problems;
+  }
+
+  OniProblems run() {
+    check_file();
+    for (const OniNode& node : index_.nodes) {
+      check_node(node);
+      if (holds_frames(node.declared.type)) check_frames(node);
+    }
+    check_links();
+    problems_.sort();
+    return problems_;
+  }
+
+ private:
+  bool closed() const { return index_.end_position != 0; }
+
+  void add(std::uint64_t position, OniSeverity severity, std::string meaning) {
+    problems_.add(position, severity, std::move(meaning));
+  }
+
+  void check_file() {
+    if (index_.zero_tail_bytes > 0)
+      add(index_.file_size - index_.zero_tail_bytes, OniSeverity::note,
+          fmt::format("{} zero bytes at the end, a habit of OpenNI2", index_.zero_tail_bytes));
+    if (index_.nodes.empty()) add(kOniHeaderSize, OniSeverity::error, "no streams");
+    if (!closed()) return;
+    std::uint64_t last_us = 0;
+    std::uint32_t largest_id = 0;
+    for (const OniNode& node : index_.nodes) {
+      largest_id = std::max(largest_id, node.id);
+      for (const OniFrameEntry& frame : node.frames) last_us = std::max(last_us, frame.timestamp_us);
+    }
+    if (index_.header.max_timestamp < last_us)
+      add(12, OniSeverity::error, "the header's largest time is before the last frame; players stop there");
+    if (index_.header.max_node_id < largest_id || index_.header.max_node_id == kOniNoCount)
+      add(20, OniSeverity::error, "the header's largest node id is wrong; players refuse the file");
+  }
+
+  void check_node(const OniNode& node) {
+    if (!node.ready)
+      add(node.position, OniSeverity::error,
+          fmt::format("node {} has no STATE_READY; players crash", node.id));
+    if (!holds_frames(node.declared.type)) return;
+    const bool empty = node.frames.empty();
+    if (empty) {
+      add(node.position, OniSeverity::note, fmt::format("node {} has no frames", node.id));
+    } else if (!node.begun) {
+      add(node.position, OniSeverity::error,
+          fmt::format("node {} has no DATA_BEGIN; players refuse", node.id));
+    }
+    const std::uint64_t begin = empty ? index_.file_size : node.frames.front().payload_position;
+    if (!node.property(oni_property::kCropping, begin))
+      add(node.position, OniSeverity::error,
+          fmt::format("node {} has no xnCropping; OpenNI2 shows none of its frames", node.id));
+    const bool counts = node.record_type != OniRecordType::node_added_1004;
+    if (closed() && counts && node.declared.frames != node.frames.size())
+      add(node.position, OniSeverity::error,
+          fmt::format("node {} declares {} frames, {} are there", node.id, node.declared.frames,
+                      node.frames.size()));
+  }
+
+  void check_frames(const OniNode& node) {
+    cv::Mat1w depth;
+    cv::Mat3b colour;
+    for (std::size_t k = 0; k < node.frames.size(); ++k) {
+      const OniFrameEntry& frame = node.frames[k];
+      const std::string fault = node.declared.type == OniNodeType::depth
+                                    ? recording_.read_stored_depth(node, k, depth)
+                                    : recording_.read_colour(node, k, colour);
+      if (!fault.empty()) {
+        // What a camera called JPEG is stored as it came; the recording is not to blame.
+        const bool as_it_came = recording_.format(node, k).pixels == OniPixelFormat::jpeg;
+        add(frame.payload_position, as_it_came ? OniSeverity::warning : OniSeverity::error,
+            fmt::format("frame {} of node {}: {}", k, node.id, fault));
+      }
+      if (frame.number != k + 1 && !numbers_noted_) {
+        numbers_noted_ = true;
+        add(frame.payload_position, OniSeverity::warning,
+            fmt::format("frame {} of node {} carries the number {}", k, node.id, frame.number));
+      }
+      if (k > 0 && frame.timestamp_us < node.frames[k - 1].timestamp_us)
+        add(frame.payload_position, OniSeverity::warning,
+            fmt::format("frame {} of node {} is earlier than the one before", k, node.id));
+    }
+  }
+
+  // The links from record to record, and the tables of frames.
+  void check_links() {
+    OniWalker walker(recording_.file());
+    while (const auto record = walker.next()) {
+      const OniNode* node = index_.find(record->node);
+      if (node == nullptr) continue;
+      if (record->type == OniRecordType::new_data) {
+        check_undo(*record, last_frame_[record->node]);
+        last_frame_[record->node] = record->position;
+      } else if (record->type == OniRecordType::node_removed) {
+        check_undo(*record, node->position);
+      } else if (record->type == OniRecordType::seek_table &&
+                 record->position == node->declared.table_position) {
+        tables_found_[record->node] = true;
+        check_table(*node, *record);
+      }
+    }
+    for (const OniNode& node : index_.nodes)
+      if (node.declared.table_position != 0 && !tables_found_[node.id])
+        add(node.position, OniSeverity::error,
+            fmt::format("node {} says its table is at {}, where none is; players refuse", node.id,
+                        node.declared.table_position));
+  }
+
+  void check_undo(const OniRecord& record, std::uint64_t should) {
+    if (record.undo != should)
+      add(record.position, OniSeverity::warning,
+          fmt::format("{} points back to {} instead of {}", to_string(record.type), record.undo, should));
+  }
+
+  void check_table(const OniNode& node, const OniRecord& record) {
+    const std::size_t entry_size = index_.header.table_entry_size();
+    const std::size_t expected = (node.frames.size() + 1) * entry_size;
+    if (record.payload_size != expected)
+      return add(record.position, OniSeverity::error,
+                 fmt::format("the table of node {} has {} bytes instead of {}; players refuse", node.id,
+                             record.payload_size, expected));
+    std::array<std::uint8_t, 20> entry{};
+    for (std::size_t k = 0; k < node.frames.size(); ++k) {
+      const std::uint64_t at = record.payload_position() + (k + 1) * entry_size;
+      if (recording_.file().read(at, std::span(entry).first(entry_size)) != entry_size) return;
+      const auto time = load_le<std::uint64_t>(&entry[0]);
+      const std::uint64_t position =
+          index_.header.narrow() ? load_le<std::uint32_t>(&entry[12]) : load_le<std::uint64_t>(&entry[12]);
+      const OniFrameEntry& frame = node.frames[k];
+      // The index keeps where the payload begins; the record begins at least a header before.
+      const bool there =
+          position + index_.header.record_header_size() + kOniFrameFields <= frame.payload_position &&
+          (k == 0 || position > node.frames[k - 1].payload_position);
+      if (time != frame.timestamp_us || !there)
+        return add(
+            at, OniSeverity::error,
+            fmt::format("the table of node {} is wrong from frame {} on; players seek astray", node.id, k));
+    }
+  }
+
+  Recording& recording_;
+  const OniIndex& index_;
+  OniProblems problems_;
+  std::map<std::uint32_t, std::uint64_t> last_frame_;
+  std::map<std::uint32_t, bool> tables_found_;
+  bool numbers_noted_ = false;
+};
+
+}  // namespace
+
+OniProblems check_recording(Recording& recording) { return Checker(recording).run(); }
+
+}  // namespace saccade

@@ -1,0 +1,188 @@
+#include "oni/repair.hpp"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+#include "oni/record_writer.hpp"
+#include "oni/recording.hpp"
+#include "oni/walker.hpp"
+
+namespace saccade {
+namespace {
+
+constexpr std::uint64_t kMaxDepth = 65535;
+constexpr std::size_t kMaxPropertyBytes = 16u << 20;  // of all nodes; far beyond any genuine file
+
+// Nodes that other players can be given: with frames of a known form, or without frames at all.
+bool is_playable(const Recording& recording, const OniNode& node) {
+  if (!is_known(node.declared.codec)) return false;
+  if (!holds_frames(node.declared.type)) return true;
+  const std::uint64_t position =
+      node.frames.empty() ? recording.index().file_size : node.frames.front().payload_position;
+  return format_at(node, position).unusable.empty();
+}
+
+class Repair {
+ public:
+  Repair(const std::filesystem::path& from, const std::filesystem::path& to, bool overwrite)
+      : recording_(from), index_(recording_.index()) {
+    for (const OniNode& node : index_.nodes) {
+      if (is_playable(recording_, node))
+        kept_.insert(node.id);
+      else
+        report_.notes.push_back(fmt::format("node {} ({}) cannot be played and is left out", node.id,
+                                            to_string(node.declared.type)));
+    }
+    const bool any = std::any_of(index_.nodes.begin(), index_.nodes.end(), [&](const OniNode& node) {
+      return holds_frames(node.declared.type) && kept_.contains(node.id);
+    });
+    if (!any) throw unreadable("no stream that could be saved", from.string(), "");
+    writer_.emplace(to, overwrite);
+  }
+
+  OniRepairReport run() {
+    try {
+      copy();
+      writer_->close();
+    } catch (const Error&) {
+      writer_->remove();
+      throw;
+    }
+    report_.lost_bytes = index_.lost_bytes;
+    return report_;
+  }
+
+ private:
+  void copy() {
+    OniWalker walker(recording_.file());
+    for (const OniNode& node : index_.nodes)
+      if (kept_.contains(node.id)) writer_->add_node(node.id, node.declared);
+    const std::uint64_t first_frame = first_frame_position();
+    bool begun = false;
+    while (const auto record = walker.next()) {
+      if (!begun && record->payload_position() >= first_frame) {
+        complete_properties();
+        writer_->begin();
+        begun = true;
+      }
+      if (!kept_.contains(record->node) || record->position < index_.find(record->node)->position) continue;
+      if (is_property(record->type)) copy_property(*record);
+      if (record->type == OniRecordType::new_data) copy_frame(*record);
+    }
+    if (begun) return;
+    complete_properties();
+    writer_->begin();
+  }
+
+  std::uint64_t first_frame_position() const {
+    std::uint64_t first = index_.file_size;
+    for (const OniNode& node : index_.nodes)
+      if (!node.frames.empty()) first = std::min(first, node.frames.front().payload_position);
+    return first;
+  }
+
+  // What the stock players refuse to do without.
+  void complete_properties() {
+    for (const OniNode& node : index_.nodes) {
+      if (!kept_.contains(node.id) || !holds_frames(node.declared.type)) continue;
+      if (!written_.contains({node.id, std::string(oni_property::kCropping)})) {
+        writer_->add_property(node.id, OniRecordType::general_property, oni_property::kCropping,
+                              std::array<std::uint8_t, 12>{});
+        report_.notes.push_back(fmt::format("xnCropping was added to node {}", node.id));
+      }
+      if (node.declared.type == OniNodeType::depth &&
+          !written_.contains({node.id, std::string(oni_property::kMaxDepth)})) {
+        writer_->add_int(node.id, oni_property::kMaxDepth, kMaxDepth);
+        report_.notes.push_back(fmt::format("xnDeviceMaxDepth was added to node {}", node.id));
+      }
+    }
+  }
+
+  std::span<const std::uint8_t> read(std::uint64_t position, std::size_t size) {
+    buffer_.resize(size);
+    buffer_.resize(recording_.file().read(position, buffer_));
+    return buffer_;
+  }
+
+  void copy_property(const OniRecord& record) {
+    const std::size_t header = index_.header.record_header_size();
+    const auto property = parse_property(read(record.position + header, record.fields_size - header));
+    if (!property) return;
+    const bool number =
+        record.type == OniRecordType::int_property || record.type == OniRecordType::real_property;
+    const auto known = known_property_size(property->name);
+    if ((number && property->value.size() != 8) || (known && !known->allows(property->value.size()))) return;
+    property_bytes_ += property->value.size();
+    if (property_bytes_ > kMaxPropertyBytes) return;
+    written_.insert({record.node, property->name});
+    const bool crop = property->name == oni_property::kCropping;
+    // Cropping outside of the image makes a stock player read beyond the frame; it counts as off here.
+    if (crop && !crop_is_possible(record))
+      writer_->add_property(record.node, record.type, property->name, std::array<std::uint8_t, 12>{});
+    else
+      writer_->add_property(record.node, record.type, property->name, property->value);
+  }
+
+  bool crop_is_possible(const OniRecord& record) const {
+    const OniNode& node = *index_.find(record.node);
+    const auto value = node.property(oni_property::kCropping, record.end());
+    if (!value || load_le<std::uint32_t>(value->data()) == 0) return true;
+    const OniFormat format = format_at(node, index_.file_size);
+    const OniFormat here = format_at(node, record.end());
+    // Where the image size comes later in the file, it is that one that counts.
+    const cv::Size size = here.size.empty() ? format.size : here.size;
+    const auto number = [&](std::size_t i) { return int{load_le<std::uint16_t>(value->data() + 4 + 2 * i)}; };
+    const cv::Rect crop(number(0), number(1), number(2), number(3));
+    return crop.area() > 0 && (crop & cv::Rect(cv::Point(0, 0), size)) == crop;
+  }
+
+  void copy_frame(const OniRecord& record) {
+    const OniNode& node = *index_.find(record.node);
+    std::size_t& k = next_frame_[record.node];
+    // The index and this walk see the same records in the same order, but the index may hold fewer frames.
+    if (k >= node.frames.size() || node.frames[k].payload_position != record.payload_position()) return;
+    const OniFormat format = recording_.format(node, k);
+    const std::string fault = node.declared.type == OniNodeType::depth
+                                  ? recording_.read_stored_depth(node, k, depth_)
+                                  : recording_.read_colour(node, k, colour_);
+    ++k;
+    if (!fault.empty() && format.pixels != OniPixelFormat::jpeg) {
+      ++report_.bad_frames;
+      return;
+    }
+    if (!writer_->write_frame(record.node, record.timestamp_us,
+                              read(record.payload_position(), record.payload_size)))
+      throw failed("disk full", writer_->name(), "free some space and try again");
+    ++report_.frames;
+  }
+
+  Recording recording_;
+  const OniIndex& index_;
+  std::optional<OniRecordWriter> writer_;
+  OniRepairReport report_;
+  std::set<std::uint32_t> kept_;                             // node ids
+  std::set<std::pair<std::uint32_t, std::string>> written_;  // properties
+  std::map<std::uint32_t, std::size_t> next_frame_;          // of each node
+  std::size_t property_bytes_ = 0;
+  std::vector<std::uint8_t> buffer_;
+  cv::Mat1w depth_;
+  cv::Mat3b colour_;
+};
+
+}  // namespace
+
+OniRepairReport repair_recording(const std::filesystem::path& from, const std::filesystem::path& to,
+                                 bool overwrite) {
+  std::error_code code;
+  if (std::filesystem::equivalent(from, to, code))
+    throw usage_error("the repaired recording needs a name of its own", to.string(),
+                      "the original is never written to");
+  return Repair(from, to, overwrite).run();
+}
+
+}  // namespace saccade

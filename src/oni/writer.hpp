@@ -1,0 +1,105 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/frame.hpp"
+#include "oni/codec_16z.hpp"
+#include "oni/jpeg.hpp"
+#include "oni/record_writer.hpp"
+
+namespace saccade {
+
+enum class OniDepthCodec { z16t, z16p, none };
+enum class OniColourCodec { jpeg, none, off };
+/// One stored step of depth. `automatic`: 0.1 mm if the first frame has fractions of a millimetre and reaches
+/// no further than 6553.5 mm, else 1 mm.
+enum class OniDepthUnit { automatic, mm1, um100 };
+
+struct OniWriterOptions {
+  OniDepthCodec depth_codec = OniDepthCodec::z16t;
+  OniColourCodec colour_codec = OniColourCodec::jpeg;
+  OniDepthUnit depth_unit = OniDepthUnit::automatic;
+  int jpeg_quality = 90;  ///< 1..100
+  double rate_hz = 0;     ///< nominal, 0 = unknown: 30 is written, since players need a number
+  /// Make a colour stream even if the first frame has no colour; for cameras whose colour starts later.
+  bool expect_colour = false;
+  bool overwrite = false;
+  /// The disk is made to hold what was written at least so often: what a power cut can take.
+  std::chrono::milliseconds flush_interval{1000};
+};
+
+/// What became of the frames that were given to a writer.
+struct OniWriterCounts {
+  std::uint64_t frames = 0;   ///< written
+  std::uint64_t dropped = 0;  ///< as told by note_dropped()
+  std::uint64_t rounded = 0;  ///< frames with depth that is no multiple of the unit
+  double largest_rounding_mm = 0;
+  std::uint64_t out_of_range_pixels = 0;  ///< too far for the unit; stored as no reading
+  std::uint64_t colourless = 0;           ///< frames without colour although the file has a colour stream
+};
+
+/// Records frames to an .oni file that survives the program: killed at any moment, at most the frame that
+/// is being written is lost, and a full disk leaves a closed file of all frames before.
+///
+/// Depth in whole steps of the unit is stored bit for bit: integer millimetres up to 65535 in a 1 mm file,
+/// tenths up to 6553.5 mm in a 0.1 mm one. Other depth (of a synthetic scene without a sensor's
+/// quantisation) is rounded to the unit, and counted, told and noted in the file. Times are kept relative to
+/// the first frame, with one origin for depth and colour; camera, drops and rounding are kept as properties
+/// that other players pass over. Thread safety: one call at a time per object.
+class OniWriter {
+ public:
+  /// Creates the file, still empty. Throws Error (usage) if it exists and is not to be overwritten, Error
+  /// (failed) if it cannot be created; std::invalid_argument for a quality out of range.
+  OniWriter(const std::filesystem::path& path, const OniWriterOptions& options);
+  /// Closes the file if nobody did, ignoring errors; a file without a frame is removed.
+  ~OniWriter();
+  OniWriter(const OniWriter&) = delete;
+  OniWriter& operator=(const OniWriter&) = delete;
+
+  /// Writes a frame. The first one decides the size, the unit and whether there is colour.
+  /// Throws Error (failed) for a full disk, after closing the file with all frames before; for another size
+  /// than the first frame's; for depth that the codec cannot hold (more than 32768 different values in 16zT,
+  /// a jump to a value >= 32768 in 16zP), with the file unchanged.
+  void write(const Frame& frame);
+
+  /// The number of frames so far that were captured and will never be written; kept in the file.
+  void note_dropped(std::uint64_t total);
+
+  /// Finishes the file. Throws Error (failed), also if nothing was written: then the file is removed.
+  void close();
+
+  const OniWriterCounts& counts() const { return counts_; }
+  std::uint64_t size_bytes() const { return records_.size(); }
+
+ private:
+  void begin(const Frame& frame);
+  void add_stream(std::uint32_t id, const Frame& frame);
+  void add_intrinsics(std::uint32_t id, const Frame& frame);
+  void store_depth(const cv::Mat1f& depth_mm);
+  void encode_depth();
+  bool encode_colour(const cv::Mat3b& colour);
+  void add_closing_properties();
+  [[noreturn]] void stop_for_full_disk();
+
+  OniWriterOptions options_;
+  OniRecordWriter records_;
+  OniWriterCounts counts_;
+  bool begun_ = false, closed_ = false, has_colour_ = false;
+  bool fine_unit_ = false;  // 0.1 mm
+  cv::Size size_;
+  std::int64_t origin_us_ = 0;
+  std::uint64_t written_drops_ = 0;
+  std::chrono::steady_clock::time_point last_flush_;
+  Encoder16z encoder_16z_;
+  JpegCodec jpeg_;
+  std::vector<std::uint16_t> stored_;
+  std::vector<std::uint8_t> depth_payload_, colour_payload_;
+};
+
+}  // namespace saccade
