@@ -79,10 +79,13 @@ HWY_INLINE void filter_columns(const BinomialRows& window, int width, RowScratch
   }
 }
 
-/// Puts the reflected columns -2, -1, width and width + 1 beside a row that is split in even and odd ones.
+/// Column c of a row that is split in even and odd ones.
+inline double& split_column(double* even, double* odd, int c) { return c & 1 ? odd[c >> 1] : even[c >> 1]; }
+
+/// Puts the reflected columns -2, -1, width and width + 1 beside such a row.
 inline void reflect_ends(double* even, double* odd, int width) {
-  const auto column = [&](int c) -> double& { return (c & 1 ? odd : even)[c >> 1]; };
-  for (const int c : {-2, -1, width, width + 1}) column(c) = column(reflect(c, width));
+  const int beyond[] = {-2, -1, width, width + 1};
+  for (const int c : beyond) split_column(even, odd, c) = split_column(even, odd, reflect(c, width));
 }
 
 HWY_INLINE WideV filter_row(const double* even, const double* odd) {
