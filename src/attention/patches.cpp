@@ -7,8 +7,8 @@ namespace saccade {
 namespace {
 
 constexpr int kFewestCells = 6;          // of a patch
-constexpr double kSupportShare = 0.1;    // of all cells with depth: the least size of a support
-constexpr double kSupportInPlane = 0.7;  // the least part of a support that is in its plane
+constexpr double kSupportShare = 0.15;   // of all cells with depth: the least size of a support
+constexpr double kSupportInPlane = 0.5;  // the least part of its patch that a support takes
 constexpr double kPlane = 0.012;       // of the depth: as far as a cell in the plane may be from it to fit it
 constexpr double kPlaneRough = 0.036;  // the same while the plane is not yet known well
 constexpr double kOffPlane = 0.018;    // of the depth: farther from the plane is not the support
@@ -88,24 +88,26 @@ void Patches::flood_edges(const SurfaceGrid& grid) {
   }
 }
 
+// What is cut from a support is looked at again: it may hold another one, a wall behind a floor.
 void Patches::find_supports(const SurfaceGrid& grid) {
   const auto valid =
       std::count_if(grid.depth_mm().begin(), grid.depth_mm().end(), [](float z) { return z > 0; });
-  const int grown = count();
-  for (int patch = 0; patch < grown; ++patch) {
-    if (patches_[static_cast<std::size_t>(patch)].cells <= kSupportShare * static_cast<double>(valid))
-      continue;
+  const double least = kSupportShare * static_cast<double>(valid);
+  for (int patch = 0; patch < count(); ++patch) {
+    const double cells = patches_[static_cast<std::size_t>(patch)].cells;
+    if (cells < least) continue;
     Plane plane;
-    if (!fit_plane(grid, patch, plane)) continue;
+    const double in_plane = fit_plane(grid, patch, plane);
+    if (in_plane < kSupportInPlane || in_plane * cells < least) continue;
     patches_[static_cast<std::size_t>(patch)].support = true;
     cut_from_support(grid, patch, plane);
   }
 }
 
 // Least squares in inverse depth over every fourth cell of the patch, again on the cells near the plane so
-// found. False if too few of the patch lie in it.
-bool Patches::fit_plane(const SurfaceGrid& grid, int patch, Plane& plane) const {
-  constexpr int kRounds = 4, kEvery = 2;
+// found. Gives the part of the patch that lies in it.
+double Patches::fit_plane(const SurfaceGrid& grid, int patch, Plane& plane) const {
+  constexpr int kRounds = 6, kEvery = 2;
   double share = 0;
   for (int round = 0; round < kRounds; ++round) {
     const double reach = round == 1 ? kPlaneRough : kPlane;
@@ -122,14 +124,14 @@ bool Patches::fit_plane(const SurfaceGrid& grid, int patch, Plane& plane) const 
       }
     const double uu = n * suu - su * su, vv = n * svv - sv * sv, uv = n * suv - su * sv;
     const double determinant = uu * vv - uv * uv;
-    if (n < 3 || determinant <= 0) return false;
+    if (n < 3 || determinant <= 0) return 0;
     const double uw = n * suw - su * sw, vw = n * svw - sv * sw;
     plane.a = (uw * vv - vw * uv) / determinant;
     plane.b = (vw * uu - uw * uv) / determinant;
     plane.c = (sw - plane.a * su - plane.b * sv) / n;
     share = n / all;
   }
-  return share >= kSupportInPlane;
+  return share;
 }
 
 void Patches::cut_from_support(const SurfaceGrid& grid, int patch, const Plane& plane) {

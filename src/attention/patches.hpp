@@ -41,7 +41,7 @@ class Patches {
   void grow_convex(const SurfaceGrid& grid);
   void flood_edges(const SurfaceGrid& grid);
   void find_supports(const SurfaceGrid& grid);
-  bool fit_plane(const SurfaceGrid& grid, int patch, Plane& plane) const;
+  double fit_plane(const SurfaceGrid& grid, int patch, Plane& plane) const;
   void cut_from_support(const SurfaceGrid& grid, int patch, const Plane& plane);
   void grow_rest(const SurfaceGrid& grid);
 

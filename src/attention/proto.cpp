@@ -76,6 +76,7 @@ void ProtoSelector::select(const cv::Mat1f& saliency, const cv::Mat1f& depth_mm,
   grid_.build(depth_mm, camera);
   patches_.grow(grid_);
   smooth_cells(saliency, scratch_, value_);
+  set_rays(depth_mm.size(), camera);
   weigh();
   list_cells_of_patches();
   for (int rank = 1; rank <= fixations_; ++rank) {
@@ -89,7 +90,7 @@ void ProtoSelector::select(const cv::Mat1f& saliency, const cv::Mat1f& depth_mm,
         fixated_pixel(saliency, depth_mm, row, col, grid_.depth_mm()[at(row * grid_.cols() + col)]);
     Fixation fixation = fixation_at(saliency, depth_mm, camera, pixel.y, pixel.x);
     collect_proto_object(row, col);
-    fixation.proto_object = paint(depth_mm, camera, attention.masks, rank);
+    fixation.proto_object = paint(depth_mm, attention.masks, rank);
     inhibit();
     attention.fixations.push_back(fixation);
   }
@@ -174,27 +175,41 @@ void ProtoSelector::clear_disc(int row, int col, int radius) {
   }
 }
 
+void ProtoSelector::set_rays(cv::Size size, const Intrinsics& camera) {
+  ray_x_.resize(at(size.width));
+  ray_y_.resize(at(size.height));
+  for (int c = 0; c < size.width; ++c) ray_x_[at(c)] = static_cast<float>((c - camera.cx) / camera.fx);
+  for (int r = 0; r < size.height; ++r) ray_y_[at(r)] = static_cast<float>((r - camera.cy) / camera.fy);
+}
+
 // Writes `rank` on the pixels of the present proto-object and measures them.
-ProtoObject ProtoSelector::paint(const cv::Mat1f& depth_mm, const Intrinsics& camera, cv::Mat1w& masks,
-                                 int rank) const {
+ProtoObject ProtoSelector::paint(const cv::Mat1f& depth_mm, cv::Mat1w& masks, int rank) const {
   ProtoObject object;
+  constexpr float kFar = std::numeric_limits<float>::max();
+  cv::Point3f low(kFar, kFar, kFar), high(-kFar, -kFar, -kFar);
   cv::Point3d sum;
-  constexpr double kFar = std::numeric_limits<double>::max();
-  cv::Point3d low(kFar, kFar, kFar), high(-kFar, -kFar, -kFar);
   for (int i : object_) {
     const float z0 = grid_.depth_mm()[at(i)];
     const int top = i / grid_.cols() * kCell, left = i % grid_.cols() * kCell;
-    for (int r = top; r < std::min(top + kCell, depth_mm.rows); ++r)
-      for (int c = left; c < std::min(left + kCell, depth_mm.cols); ++c) {
-        const float z = depth_mm(r, c);
+    const int bottom = std::min(top + kCell, depth_mm.rows), right = std::min(left + kCell, depth_mm.cols);
+    cv::Point3f cell_sum;  // of few pixels, so that float holds it well
+    int pixels = 0;
+    for (int r = top; r < bottom; ++r) {
+      const float* line = depth_mm[r];
+      ushort* mask = masks[r];
+      for (int c = left; c < right; ++c) {
+        const float z = line[c];
         if (!on_surface(z, z0)) continue;
-        masks(r, c) = static_cast<ushort>(rank);
-        ++object.pixels;
-        const cv::Point3d p = camera.point_mm(r, c, static_cast<double>(z));
-        sum += p;
+        mask[c] = static_cast<ushort>(rank);
+        ++pixels;
+        const cv::Point3f p(ray_x_[at(c)] * z, ray_y_[at(r)] * z, z);
+        cell_sum += p;
         low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
         high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
       }
+    }
+    sum += cv::Point3d(cell_sum);
+    object.pixels += pixels;
   }
   if (object.pixels == 0) return object;
   object.centroid_mm = sum / object.pixels;

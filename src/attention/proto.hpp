@@ -45,13 +45,15 @@ class ProtoSelector : public AttentionSelector {
   void collect_proto_object(int row, int col);
   void inhibit();
   void clear_disc(int row, int col, int radius);
-  ProtoObject paint(const cv::Mat1f& depth_mm, const Intrinsics& camera, cv::Mat1w& masks, int rank) const;
+  void set_rays(cv::Size size, const Intrinsics& camera);
+  ProtoObject paint(const cv::Mat1f& depth_mm, cv::Mat1w& masks, int rank) const;
 
   int fixations_;
   SurfaceGrid grid_;
   Patches patches_;
   std::vector<float> scratch_, value_;
-  std::vector<float> row_best_;  ///< largest value of each row
+  std::vector<float> row_best_;       ///< largest value of each row
+  std::vector<float> ray_x_, ray_y_;  ///< x/z of each column, y/z of each row
   std::vector<int> first_of_patch_, cells_of_patch_;
   std::vector<int> object_;               ///< cells of the present proto-object
   std::vector<unsigned char> in_object_;  ///< the same, by cell

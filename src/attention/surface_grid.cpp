@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include <opencv2/core/hal/intrin.hpp>
+
 namespace saccade {
 namespace {
 
@@ -111,58 +113,100 @@ void SurfaceGrid::set_normal(std::size_t i, int row, int col, float slope_u, flo
   nz_[i] = c * scale;
 }
 
-// The plane fit with some of the cells missing or on another surface.
-void SurfaceGrid::normal_with_gaps(int row, int col) {
-  constexpr float kFewest = 6;
-  const std::size_t i = static_cast<std::size_t>(row * cols_ + col);
-  const float z0 = z_[i], w0 = w_[i], reach = kSameSurface * z0;
-  float n = 0, su = 0, sv = 0, suu = 0, svv = 0, suv = 0, sw = 0, suw = 0, svw = 0;
-  for (int v = std::max(-kReach, -row); v <= std::min(kReach, rows_ - 1 - row); ++v)
-    for (int u = std::max(-kReach, -col); u <= std::min(kReach, cols_ - 1 - col); ++u) {
-      const std::size_t j = static_cast<std::size_t>((row + v) * cols_ + col + u);
-      const float use = std::abs(z_[j] - z0) <= reach ? 1.0F : 0.0F;  // no depth is far from any depth
-      const float fu = use * static_cast<float>(u), fv = use * static_cast<float>(v), w = use * (w_[j] - w0);
-      n += use, su += fu, sv += fv, suu += fu * fu, svv += fv * fv, suv += fu * fv;
-      sw += w, suw += fu * w, svw += fv * w;
+// The plane fit with some of the cells missing or on another surface, for kLanes cells of a row at once. The
+// sums over u come first, then those over v; u and v are whole numbers, so that all but the sums of w are
+// exact.
+void SurfaceGrid::normals_with_gaps(int row, int first_col) {
+  using Lanes = cv::v_float32x4;
+  const std::size_t stride = padded_stride(),
+                    corner = static_cast<std::size_t>(row) * stride + static_cast<std::size_t>(first_col),
+                    middle = corner + kReach * stride + kReach;
+  const Lanes z0 = cv::v_load(&padded_z_[middle]), w0 = cv::v_load(&padded_w_[middle]);
+  const Lanes reach = z0 * cv::v_setall_f32(kSameSurface), one = cv::v_setall_f32(1),
+              zero = cv::v_setzero_f32();
+  Lanes n = zero, su = zero, sv = zero, suu = zero, svv = zero, suv = zero, sw = zero, suw = zero, svw = zero;
+  for (int v = 0; v <= 2 * kReach; ++v) {
+    std::array<Lanes, 2 * kReach + 1> use, w;
+    for (std::size_t u = 0; u < use.size(); ++u) {
+      const std::size_t j = corner + static_cast<std::size_t>(v) * stride + u;
+      const Lanes same = cv::v_abs(cv::v_load(&padded_z_[j]) - z0) <= reach;
+      use[u] = one & same;
+      w[u] = (cv::v_load(&padded_w_[j]) - w0) & same;
     }
-  const float uu = n * suu - su * su, vv = n * svv - sv * sv, uv = n * suv - su * sv;
-  const float determinant = uu * vv - uv * uv;
-  if (n < kFewest || determinant <= 0) return;
-  const float uw = n * suw - su * sw, vw = n * svw - sv * sw;
-  const float slope_u = (uw * vv - vw * uv) / determinant, slope_v = (vw * uu - uw * uv) / determinant;
-  set_normal(i, row, col, slope_u, slope_v, w0 + (sw - slope_u * su - slope_v * sv) / n);
+    const Lanes y = cv::v_setall_f32(static_cast<float>(v - kReach));
+    const Lanes row_n = (use[0] + use[4]) + (use[1] + use[3]) + use[2];
+    const Lanes end_u = use[4] - use[0], row_u = (end_u + end_u) + (use[3] - use[1]);
+    const Lanes end_uu = (use[4] + use[0]) + (use[4] + use[0]);
+    const Lanes row_w = (w[0] + w[4]) + (w[1] + w[3]) + w[2], end_w = w[4] - w[0];
+    n += row_n, su += row_u, suu += (end_uu + end_uu) + (use[1] + use[3]);
+    sv += y * row_n, svv += y * y * row_n, suv += y * row_u;
+    sw += row_w, suw += (end_w + end_w) + (w[3] - w[1]), svw += y * row_w;
+  }
+  const Lanes uu = n * suu - su * su, vv = n * svv - sv * sv, uv = n * suv - su * sv;
+  const Lanes uw = n * suw - su * sw, vw = n * svw - sv * sw, determinant = uu * vv - uv * uv;
+  const Lanes fits = (n >= cv::v_setall_f32(6)) & (determinant > zero) & (z0 > zero);
+  const Lanes divisor = cv::v_select(fits, determinant, one);
+  const Lanes slope_u = (uw * vv - vw * uv) / divisor, slope_v = (vw * uu - uw * uv) / divisor;
+  const Lanes at_middle = w0 + (sw - slope_u * su - slope_v * sv) / cv::v_max(n, one);
+  alignas(16) float a[kLanes], b[kLanes], c[kLanes], fit[kLanes];
+  cv::v_store(a, slope_u), cv::v_store(b, slope_v), cv::v_store(c, at_middle), cv::v_store(fit, fits & one);
+  for (int k = 0; k < kLanes && first_col + k < cols_; ++k)
+    if (fit[k] != 0)
+      set_normal(static_cast<std::size_t>(row * cols_ + first_col + k), row, first_col + k, a[k], b[k], c[k]);
 }
 
-// Where all 25 cells are of one surface the sums are separable: five in a row first, then five rows.
-void SurfaceGrid::make_normals() {
-  for (auto* array : {&nx_, &ny_, &nz_}) array->assign(size(), 0.0F);
-  for (auto* array : {&lowest_, &highest_, &sum_, &sum_u_}) array->resize(size());
+void SurfaceGrid::pad() {
+  const std::size_t stride = padded_stride(), width = static_cast<std::size_t>(cols_);
+  padded_z_.assign((static_cast<std::size_t>(rows_) + 2 * kReach) * stride, 0.0F);
+  padded_w_.assign(padded_z_.size(), 0.0F);
+  for (std::size_t r = 0; r < static_cast<std::size_t>(rows_); ++r) {
+    std::copy_n(&z_[r * width], width, &padded_z_[(r + kReach) * stride + kReach]);
+    std::copy_n(&w_[r * width], width, &padded_w_[(r + kReach) * stride + kReach]);
+  }
+}
+
+// True if the 5 x 5 cells around a cell are all of its surface.
+bool SurfaceGrid::is_whole(int row, int col) const {
+  if (row < kReach || col < kReach || row + kReach >= rows_ || col + kReach >= cols_) return false;
   const auto width = static_cast<std::size_t>(cols_);
-  for (std::size_t i = 2; i + 2 < size(); ++i) {  // across the ends of rows too; those are not used
+  const std::size_t i = static_cast<std::size_t>(row) * width + static_cast<std::size_t>(col);
+  const std::size_t a = i - 2 * width, b = i - width, d = i + width, e = i + 2 * width;
+  const float low =
+      std::min(std::min(std::min(lowest_[a], lowest_[b]), std::min(lowest_[d], lowest_[e])), lowest_[i]);
+  const float high =
+      std::max(std::max(std::max(highest_[a], highest_[b]), std::max(highest_[d], highest_[e])), highest_[i]);
+  return high - z_[i] <= kSameSurface * z_[i] && z_[i] - low <= kSameSurface * z_[i];
+}
+
+void SurfaceGrid::sum_fives() {
+  for (auto* array : {&lowest_, &highest_, &sum_, &sum_u_}) array->resize(size());
+  for (std::size_t i = kReach; i + kReach < size();
+       ++i) {  // also across the ends of rows; those are not used
     const float *z = &z_[i], *w = &w_[i];
     lowest_[i] = std::min(std::min(std::min(z[-2], z[-1]), std::min(z[1], z[2])), z[0]);
     highest_[i] = std::max(std::max(std::max(z[-2], z[-1]), std::max(z[1], z[2])), z[0]);
     sum_[i] = ((w[-2] + w[2]) + (w[-1] + w[1])) + w[0];
     sum_u_[i] = 2 * (w[2] - w[-2]) + (w[1] - w[-1]);
   }
+}
+
+// Where all 25 cells are of one surface the sums are separable, five in a row first, then five rows: 25
+// cells, sum of u^2 = sum of v^2 = 50, all mixed sums 0.
+void SurfaceGrid::make_normals() {
+  for (auto* array : {&nx_, &ny_, &nz_}) array->assign(size(), 0.0F);
+  sum_fives();
+  pad();
+  const auto width = static_cast<std::size_t>(cols_);
   for (int r = 0; r < rows_; ++r)
     for (int c = 0; c < cols_; ++c) {
       const std::size_t i = static_cast<std::size_t>(r) * width + static_cast<std::size_t>(c);
       if (z_[i] == 0) continue;
-      if (r < kReach || c < kReach || r + kReach >= rows_ || c + kReach >= cols_) {
-        normal_with_gaps(r, c);
+      if (!is_whole(r, c)) {
+        normals_with_gaps(r, c);
+        c += kLanes - 1;
         continue;
       }
       const std::size_t a = i - 2 * width, b = i - width, d = i + width, e = i + 2 * width;
-      const float low =
-          std::min(std::min(std::min(lowest_[a], lowest_[b]), std::min(lowest_[d], lowest_[e])), lowest_[i]);
-      const float high = std::max(
-          std::max(std::max(highest_[a], highest_[b]), std::max(highest_[d], highest_[e])), highest_[i]);
-      if (high - z_[i] > kSameSurface * z_[i] || z_[i] - low > kSameSurface * z_[i]) {
-        normal_with_gaps(r, c);
-        continue;
-      }
-      // 25 cells, sum of u^2 = sum of v^2 = 50, all mixed sums 0.
       const float slope_u = ((sum_u_[a] + sum_u_[e]) + (sum_u_[b] + sum_u_[d]) + sum_u_[i]) / 50;
       const float slope_v = (2 * (sum_[e] - sum_[a]) + (sum_[d] - sum_[b])) / 50;
       set_normal(i, r, c, slope_u, slope_v, ((sum_[a] + sum_[e]) + (sum_[b] + sum_[d]) + sum_[i]) / 25);

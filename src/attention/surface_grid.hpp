@@ -52,15 +52,22 @@ class SurfaceGrid {
   void make_cells(const cv::Mat1f& depth_mm);
   float cell_depth(const cv::Mat1f& depth_mm, int row, int col) const;
   void make_normals();
-  void normal_with_gaps(int row, int col);
+  void sum_fives();
+  void pad();
+  bool is_whole(int row, int col) const;
+  void normals_with_gaps(int row, int first_col);
   void set_normal(std::size_t i, int row, int col, float slope_u, float slope_v, float w);
   void find_concave_edges();
   void find_links();
+
+  static constexpr int kLanes = 4;  // cells that normals_with_gaps() takes at once
+  std::size_t padded_stride() const { return static_cast<std::size_t>(cols_) + 4 + kLanes; }
 
   int rows_ = 0, cols_ = 0;
   Intrinsics camera_;  ///< of the cells: pixel (row, col) of the grid is the middle of cell (row, col)
   std::vector<float> x_, y_, z_, w_, nx_, ny_, nz_;
   std::vector<float> lowest_, highest_, sum_, sum_u_;  ///< of five cells in a row
+  std::vector<float> padded_z_, padded_w_;             ///< with a frame of cells without depth
   std::vector<float> column_low_, column_high_, column_sum_;
   std::vector<std::int32_t> concave_;
   std::vector<std::uint8_t> links_, convex_;

@@ -25,7 +25,7 @@ namespace saccade {
 ///
 /// Most cells are never near the threshold, and one that cannot fire touches no other cell. So a cell sleeps
 /// until a bound says that it may fire soon; then the steps that it slept through are made up for. The
-/// winners and their steps are those of the full simulation, to the last bit.
+/// winners and their steps are those of the full simulation.
 class WtaNetwork {
  public:
   /// m = 5 counted from one: the map is 1/16 of the image.

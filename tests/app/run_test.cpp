@@ -1,6 +1,7 @@
 // `saccade run` as a user starts it: what it writes.
 
 #include <cmath>
+#include <set>
 #include <sstream>
 
 #include <gmock/gmock.h>
@@ -123,6 +124,10 @@ TEST_F(RunTest, DumpsWhatIsAskedFor) {
   EXPECT_NEAR(cv::norm(z_y_x), 1, 1e-4);
   EXPECT_LT(z_y_x[0], 0) << "towards the camera";
   EXPECT_LT(z_y_x[1], -0.4F) << "upwards";
+  run("labels", {"--dump", "labels", "--frames", "1"});
+  const cv::Mat labels = cv::imread(in("labels/000000_labels.png"), cv::IMREAD_UNCHANGED);
+  EXPECT_EQ(labels.type(), CV_16UC1);
+  EXPECT_GT(cv::countNonZero(labels), 100);
   run("none", {"--dump", "none"});
   EXPECT_EQ(files("none"), (std::set<std::string>{"fixations.jsonl", "manifest.json"}));
 }
@@ -181,6 +186,33 @@ TEST_F(RunTest, DepthWithoutAnyReadingGivesAZeroMapAndNoFixations) {
     EXPECT_TRUE(frame["fixations"].empty());
     EXPECT_FALSE(frame["ended_early"].get<std::string>().empty());
   }
+}
+
+// The whole chain as ./run shows it: recording, operator, attention; each of the first points is on another
+// object.
+TEST_F(RunTest, TheBundledRecordingsObjectsAreFoundOneByOne) {
+  const std::string recordings = SACCADE_SOURCE_DIR "/recordings/";
+  const Outcome outcome =
+      run_saccade({"run", recordings + "table.oni", "--out", in("out"), "--dump", "none"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const auto frames = lines("out/fixations.jsonl");
+  ASSERT_EQ(frames.size(), 16U);
+  double hits = 0, possible = 0;
+  for (const json& frame : frames) {
+    const auto name = std::to_string(frame["frame"].get<int>() + 10000).substr(1) + "_label.png";
+    const cv::Mat labels = decode_png(read_file(recordings + "table_labels/" + name));
+    std::set<int> present, found;
+    for (int r = 0; r < labels.rows; ++r)
+      for (int c = 0; c < labels.cols; ++c) present.insert(labels.at<std::uint16_t>(r, c));
+    present.erase(0);
+    for (std::size_t i = 0; i < present.size(); ++i)
+      found.insert(labels.at<std::uint16_t>(frame["fixations"][i]["row"].get<int>(),
+                                            frame["fixations"][i]["col"].get<int>()));
+    found.erase(0);
+    hits += static_cast<double>(found.size());
+    possible += static_cast<double>(present.size());
+  }
+  EXPECT_GE(hits / possible, 0.9);
 }
 
 TEST_F(RunTest, InterruptingLeavesWholeFilesAndSaysSo) {

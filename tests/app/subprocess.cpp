@@ -20,6 +20,12 @@ std::string read_text(const fs::path& path) {
   return {bytes.begin(), bytes.end()};
 }
 
+bool has_ended(pid_t child) {
+  siginfo_t info{};
+  return ::waitid(P_PID, static_cast<id_t>(child), &info, WEXITED | WNOHANG | WNOWAIT) != 0 ||
+         info.si_pid == child;
+}
+
 }  // namespace
 
 ::testing::AssertionResult Outcome::one_error_line() const {
@@ -45,7 +51,7 @@ Outcome run_saccade(const std::vector<std::string>& arguments, int interrupt_aft
     ::_exit(127);
   }
   if (interrupt_after_ms >= 0) {
-    while (!fs::exists(wait_for) && ::waitpid(child, nullptr, WNOHANG | WNOWAIT) == 0)
+    while (!fs::exists(wait_for) && !has_ended(child))
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     std::this_thread::sleep_for(std::chrono::milliseconds(interrupt_after_ms));
     ::kill(child, SIGINT);

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <memory>
+
+#include "core/frame.hpp"
+#include "core/settings.hpp"
+#include "core/stage_times.hpp"
+#include "core/worker_pool.hpp"
+#include "saliency/symmetry3d.hpp"
+
+namespace saccade {
+
+/// Something that gives each pixel of a frame a saliency. Deterministic: the same frame gives the same map,
+/// for any number of workers. Keeps memory between frames. Thread safety: one compute() at a time per object.
+class SaliencyModel {
+ public:
+  virtual ~SaliencyModel() = default;
+
+  /// Fills maps.master (H x W of the frame, finite, >= 0) and of the by-products those that are wanted and
+  /// that the model has; the others are left empty. Adds to `times`. Throws Error if it cannot work on frames
+  /// like this one.
+  virtual void compute(const Frame& frame, SaliencyWants wants, SaliencyMaps& maps, StageTimes& times) = 0;
+};
+
+/// The model named by settings.model. `pool` must outlive it. Throws Error (usage) if this machine cannot run
+/// it.
+std::unique_ptr<SaliencyModel> make_model(const Settings& settings, WorkerPool& pool);
+
+}  // namespace saccade
