@@ -48,10 +48,22 @@ struct WindowSums {
 /// What the operator needs to know at each pixel of a row before it looks at single points.
 struct RowStatistics {
   enum Value {
-    kCovXX, kCovYY, kCovZZ, kCovXY, kCovXZ, kCovYZ,  ///< of the window's normals
-    kAxis0, kAxis1 = kAxis0 + 3, kAxis2 = kAxis1 + 3,  ///< x, y, z of its eigenvectors
+    kCovXX,
+    kCovYY,
+    kCovZZ,
+    kCovXY,
+    kCovXZ,
+    kCovYZ,  ///< of the window's normals
+    kAxis0,
+    kAxis1 = kAxis0 + 3,
+    kAxis2 = kAxis1 + 3,  ///< x, y, z of its eigenvectors
     kCount = kAxis2 + 3,  ///< sums over the window without its centre, as HalfSums has them
-    kZ, kZRows, kZCols, kNormalX, kNormalY, kNormalZ,
+    kZ,
+    kZRows,
+    kZCols,
+    kNormalX,
+    kNormalY,
+    kNormalZ,
     kValues
   };
   std::array<PaddedRow<float>, kValues> values;
@@ -74,16 +86,16 @@ struct RowScratch {
         sweep_terms(hwy::AllocateAligned<float>(static_cast<std::size_t>(3 * (2 * reach + 1) * 16))),
         groups(hwy::AllocateAligned<int>(static_cast<std::size_t>(width + 16))) {}
 
-  WindowSums columns;                          ///< sums of the window's rows in one column
-  PaddedRow<double> column_depth;              ///< of them, the sum of depths that kDepthRows belongs to
-  WindowSums boxes;                            ///< sums of the whole window
-  PaddedRow<std::int32_t> whole_doubling;      ///< for the sums of a row's neighbours
+  WindowSums columns;                      ///< sums of the window's rows in one column
+  PaddedRow<double> column_depth;          ///< of them, the sum of depths that kDepthRows belongs to
+  WindowSums boxes;                        ///< sums of the whole window
+  PaddedRow<std::int32_t> whole_doubling;  ///< for the sums of a row's neighbours
   PaddedRow<double> double_doubling;
   RowStatistics statistics;
-  std::array<PaddedRow<double>, 4> halving;    ///< pyramid: depths and weights of even and of odd columns
-  std::array<PaddedRow<float>, 2> upsampling;  ///< master map
+  std::array<PaddedRow<double>, 4> halving;        ///< pyramid: depths and weights of even and of odd columns
+  std::array<PaddedRow<float>, 2> upsampling;      ///< master map
   hwy::AlignedFreeUniquePtr<float[]> sweep_terms;  ///< the sweep: of each plane, a vector for each row
-  hwy::AlignedFreeUniquePtr<int[]> groups;     ///< first columns of the vectors that hold a point
+  hwy::AlignedFreeUniquePtr<int[]> groups;         ///< first columns of the vectors that hold a point
 };
 
 }  // namespace saccade

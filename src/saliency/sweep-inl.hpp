@@ -1,5 +1,5 @@
-// The inner loop: splits the points of a window by the candidate planes and sums the halves in front, Eq. (2).
-// Compiled once for each instruction set.
+// The inner loop: splits the points of a window by the candidate planes and sums the halves in front, Eq.
+// (2). Compiled once for each instruction set.
 #if defined(SACCADE_SALIENCY_SWEEP_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef SACCADE_SALIENCY_SWEEP_INL
 #undef SACCADE_SALIENCY_SWEEP_INL
@@ -80,7 +80,8 @@ HWY_INLINE void sum_in_front(const LevelPlanes& level, std::ptrdiff_t at, const 
         const V nx = load(normal_x + j), ny = load(normal_y + j), nz = load(normal_z + j);
         const V row = set(static_cast<float>(window.first_row + v));
         for (int i = 0; i < kCount; ++i) {
-          const M front = hn::Gt(hn::MulAdd(along_ray[i], q, hn::Load(kF, term + i * kLanes)), threshold[i]);  // Eq. (2)
+          const M front =
+              hn::Gt(hn::MulAdd(along_ray[i], q, hn::Load(kF, term + i * kLanes)), threshold[i]);  // Eq. (2)
           counted[i] = add_where(front, p, counted[i]);
           sums[i].z_rows = mul_add_where(front, z, row, sums[i].z_rows);
           sums[i].normal.x = add_where(front, nx, sums[i].normal.x);
@@ -97,7 +98,7 @@ HWY_INLINE void sum_in_front(const LevelPlanes& level, std::ptrdiff_t at, const 
       }
     }
   }
-  const V mm = set(1 / DepthPacking::kUnitsPerMm);
+  const V mm = set(1 / level.packing.units_per_mm);
   for (int i = 0; i < kCount; ++i) {
     sums[i].z = hn::Mul(sums[i].z, mm);
     sums[i].z_cols = hn::Mul(sums[i].z_cols, mm);

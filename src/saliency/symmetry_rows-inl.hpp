@@ -32,12 +32,15 @@ HWY_INLINE Centres centres_at(const LevelPlanes& level, const Symmetry3dParams& 
 }
 
 /// Section 2 of SPEC at one vector of pixels: the best of the three planes, Eqs. (3, 13).
-HWY_INLINE V symmetry_at(const LevelPlanes& level, const Symmetry3dParams& params, const Window& window, int row,
-                         int col, RowScratch& scratch) {
+HWY_INLINE V symmetry_at(const LevelPlanes& level, const Symmetry3dParams& params, const Window& window,
+                         int row, int col, RowScratch& scratch) {
   using S = RowStatistics;
   const auto get = [&](int value) HWY_ATTR { return hn::Load(kF, scratch.statistics.row(value) + col); };
   const Centres centres = centres_at(level, params, row, col);
-  const HalfSums all{get(S::kCount), get(S::kZ), get(S::kZRows), get(S::kZCols),
+  const HalfSums all{get(S::kCount),
+                     get(S::kZ),
+                     get(S::kZRows),
+                     get(S::kZCols),
                      {get(S::kNormalX), get(S::kNormalY), get(S::kNormalZ)}};
   V best = zero();
   for (int first = 0; first < 3; first += kPlanesPerPass) {
@@ -71,7 +74,8 @@ HWY_INLINE int find_groups(LevelPlanes& level, int r, int* columns) {
 }
 
 /// Kernels::symmetry_rows
-void symmetry_rows(LevelPlanes& level, const Symmetry3dParams& params, int begin, int end, RowScratch& scratch) {
+void symmetry_rows(LevelPlanes& level, const Symmetry3dParams& params, int begin, int end,
+                   RowScratch& scratch) {
   const DenormalsAreZero denormals;
   constexpr int kTogether = 3;
   const int reach = params.kernel / 2;

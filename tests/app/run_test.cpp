@@ -161,7 +161,9 @@ TEST_F(RunTest, PaperConfigRunsTheNetwork) {
   const Outcome outcome = run_saccade({"run", "synthetic:table?frames=1", "--out", in("out"), "--config",
                                        SACCADE_SOURCE_DIR "/config/paper.toml", "--dump", "none"});
   EXPECT_EQ(outcome.status, 0) << outcome.err;
-  for (const json& f : lines("out/fixations.jsonl")[0]["fixations"]) EXPECT_EQ(f["row"].get<int>() % 16, 8);
+  const json frame = lines("out/fixations.jsonl")[0];
+  ASSERT_FALSE(frame["fixations"].empty());
+  for (const json& f : frame["fixations"]) EXPECT_EQ(f["row"].get<int>() % 16, 8);
 }
 
 TEST_F(RunTest, UnusableFramesAreRejectedAndTheRestIsProcessed) {
