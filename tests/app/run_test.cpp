@@ -217,6 +217,19 @@ TEST_F(RunTest, TheBundledRecordingsObjectsAreFoundOneByOne) {
   EXPECT_GE(hits / possible, 0.9);
 }
 
+TEST_F(RunTest, BenchTellsWhatThisMachineSustains) {
+  const Outcome outcome =
+      run_saccade({"bench", "--json", "--seconds", "0", "--kernel", "5", "--levels", "0..1"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const json report = json::parse(outcome.out);
+  ASSERT_EQ(report["sizes"].size(), 4U);
+  for (const json& size : report["sizes"]) {
+    EXPECT_GE(size["frame_p95_ms"], size["frame_p50_ms"]);
+    EXPECT_TRUE(size["sustains"]["30 Hz"].is_boolean());
+  }
+  EXPECT_GT(report["sizes"][1]["reference_ratio"], 1);
+}
+
 TEST_F(RunTest, InterruptingLeavesWholeFilesAndSaysSo) {
   const Outcome outcome =
       run_saccade({"run", "synthetic:table?noise=kinect&frames=100000", "--out", in("out")}, 150,
