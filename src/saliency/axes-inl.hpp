@@ -17,7 +17,8 @@ namespace HWY_NAMESPACE {
 
 /// Of each pixel of row r: the covariance of the normals, and the sums that the halves are taken from. The
 /// covariance is a difference of nearly equal numbers where surfaces are flat; in double it is exact enough.
-HWY_INLINE void window_statistics(const LevelPlanes& level, int r, int reach, RowScratch& scratch) {
+HWY_INLINE void window_statistics(const LevelPlanes& level, int r, int reach, WindowSums& boxes,
+                                  RowStatistics& statistics) {
   using S = RowStatistics;
   const WideV whole_unit = hn::Set(kWide, 1.0 / (1 << normal_bits(reach)));
   const WideV inverse_units = hn::Set(kWide, 1.0 / static_cast<double>(level.packing.units_per_mm));
@@ -25,15 +26,14 @@ HWY_INLINE void window_statistics(const LevelPlanes& level, int r, int reach, Ro
   const float* packed = level.row(LevelPlanes::kPacked, r);
   for (int c = 0; c < level.width(); c += kWideLanes) {
     const auto whole = [&](WindowSums::Whole i) HWY_ATTR {
-      const std::int32_t* sums = scratch.boxes.whole[static_cast<std::size_t>(i)].data();
+      const std::int32_t* sums = boxes.whole[static_cast<std::size_t>(i)].data();
       return hn::Mul(hn::PromoteTo(kWide, hn::Load(kHalfWhole, sums + c)), whole_unit);
     };
     const auto depth = [&](WindowSums::Double i) HWY_ATTR {
-      return hn::Load(kWide, scratch.boxes.depth[static_cast<std::size_t>(i)].data() + c);
+      return hn::Load(kWide, boxes.depth[static_cast<std::size_t>(i)].data() + c);
     };
-    const auto put = [&](S::Value value, WideV v) HWY_ATTR {
-      hn::Store(hn::DemoteTo(kHalfF, v), kHalfF, scratch.statistics.row(value) + c);
-    };
+    const auto put = [&](S::Value value, WideV v)
+                         HWY_ATTR { hn::Store(hn::DemoteTo(kHalfF, v), kHalfF, statistics.row(value) + c); };
     const WideV x = whole(WindowSums::kX), y = whole(WindowSums::kY), z = whole(WindowSums::kZ);
     const WideV xx = whole(WindowSums::kXX), yy = whole(WindowSums::kYY), zz = whole(WindowSums::kZZ);
     const WideV n = hn::Round(hn::Add(xx, hn::Add(yy, zz)));  // normals have length 1

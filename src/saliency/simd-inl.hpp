@@ -90,6 +90,15 @@ HWY_INLINE V reciprocal_sqrt(V x) {
   return y;
 }
 
+/// v, held in a register. Else compilers load a value anew for each of its uses, and loads that cross cache
+/// lines are what the inner loop has too many of.
+HWY_INLINE V in_register(V v) {
+#if HWY_ARCH_X86 && HWY_TARGET != HWY_SCALAR
+  asm("" : "+v"(v.raw));
+#endif
+  return v;
+}
+
 /// sum + v where m, else sum.
 HWY_INLINE V add_where(M m, V v, V sum) {
 #if HWY_TARGET <= HWY_AVX3

@@ -14,7 +14,7 @@ namespace saccade {
 namespace {
 
 // Rows that one worker takes at a time. They are the same for any number of workers, and with them every bit.
-constexpr int kRowsOfPoints = 16, kRowsOfSymmetry = 8;
+constexpr int kRowsOfPoints = 16, kRowsOfSymmetry = RowScratch::kBandRows;
 
 struct Band {
   int level, begin, end;  // rows
