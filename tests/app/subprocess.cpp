@@ -35,7 +35,7 @@ bool has_ended(pid_t child) {
 }
 
 Outcome run_saccade(const std::vector<std::string>& arguments, int interrupt_after_ms,
-                    const fs::path& wait_for) {
+                    const fs::path& wait_for, int signal) {
   const fs::path base = fs::path(::testing::TempDir()) / ("saccade_" + std::to_string(::getpid()));
   const std::string out = base.string() + ".out", err = base.string() + ".err";
   std::vector<char*> argv = {const_cast<char*>(SACCADE_PROGRAM)};
@@ -54,7 +54,7 @@ Outcome run_saccade(const std::vector<std::string>& arguments, int interrupt_aft
     while (!fs::exists(wait_for) && !has_ended(child))
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     std::this_thread::sleep_for(std::chrono::milliseconds(interrupt_after_ms));
-    ::kill(child, SIGINT);
+    ::kill(child, signal);
   }
   int status = 0;
   ::waitpid(child, &status, 0);

@@ -16,10 +16,10 @@ struct Outcome {
   ::testing::AssertionResult one_error_line() const;
 };
 
-/// Runs the program under test. With interrupt_after_ms >= 0 it gets SIGINT once the file `wait_for` exists
-/// and so many milliseconds have passed.
+/// Runs the program under test. With interrupt_after_ms >= 0 it gets `signal` (SIGINT) once the file `wait_for`
+/// exists and so many milliseconds have passed.
 Outcome run_saccade(const std::vector<std::string>& arguments, int interrupt_after_ms = -1,
-                    const std::filesystem::path& wait_for = {});
+                    const std::filesystem::path& wait_for = {}, int signal = 2);
 
 /// A folder of one test, empty at its start and removed at its end.
 class ProgramTest : public ::testing::Test {
