@@ -19,8 +19,10 @@ float multiply_add(long rounds) {
   namespace hn = hwy::HWY_NAMESPACE;
   const hn::ScalableTag<float> d;
   const auto factor = hn::Set(d, 0.999f), term = hn::Set(d, 0.001f);
-  auto s0 = hn::Set(d, 0.0f), s1 = s0, s2 = s0, s3 = s0, s4 = s0, s5 = s0, s6 = s0, s7 = s0, s8 = s0, s9 = s0,
-       s10 = s0, s11 = s0;
+  // Each begins elsewhere, so that none can be taken for another.
+  auto s0 = hn::Set(d, 0.0f), s1 = hn::Set(d, 0.1f), s2 = hn::Set(d, 0.2f), s3 = hn::Set(d, 0.3f),
+       s4 = hn::Set(d, 0.4f), s5 = hn::Set(d, 0.5f), s6 = hn::Set(d, 0.6f), s7 = hn::Set(d, 0.7f),
+       s8 = hn::Set(d, 0.8f), s9 = hn::Set(d, 0.9f), s10 = hn::Set(d, 1.1f), s11 = hn::Set(d, 1.2f);
   for (long i = 0; i < rounds; ++i) {
     s0 = hn::MulAdd(s0, factor, term), s1 = hn::MulAdd(s1, factor, term);
     s2 = hn::MulAdd(s2, factor, term), s3 = hn::MulAdd(s3, factor, term);

@@ -18,7 +18,7 @@ namespace saccade {
 namespace {
 
 /// A table with balls on it before a wall, in whole millimetres with a Kinect's noise; `holes` of it missing.
-cv::Mat1f table(cv::Size size, double holes = 0.2) {
+cv::Mat1f table(cv::Size size, double holes = 0.27) {
   const Intrinsics camera = Intrinsics::guess_for(size);
   std::mt19937 random(1);
   std::normal_distribution<double> noise(0, 1);
