@@ -96,7 +96,7 @@ HWY_INLINE void rotate(V& app, V& aqq, V& apq, V& arp, V& arq, V (&axis_p)[3], V
 template <int kGroups>
 HWY_INLINE void gaussian_image_axes(const int* columns, RowStatistics& statistics) {
   using S = RowStatistics;
-  constexpr int kSweeps = 4;
+  constexpr int kSweeps = 3;
   Diagonalisation m[kGroups];
   for (int g = 0; g < kGroups; ++g) {
     const auto get = [&](S::Value value)

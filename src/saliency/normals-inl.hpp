@@ -36,9 +36,9 @@ HWY_INLINE PlaneFitSums sum_plane_fit(const LevelPlanes& level, std::ptrdiff_t a
       const M m = hn::Le(hn::Abs(dz), same_surface);
       const V q = hn::IfThenElseZero(m, hn::Mul(dz, load(level.plane(LevelPlanes::kInverse) + row + u)));
       const V fu = set(static_cast<float>(u)), fuu = set(static_cast<float>(u * u));
-      row_n = add_where(m, set(1.0f), row_n);
-      row_u = add_where(m, fu, row_u);
-      row_uu = add_where(m, fuu, row_uu);
+      row_n = add_where(select(m), set(1.0f), row_n);
+      row_u = add_where(select(m), fu, row_u);
+      row_uu = add_where(select(m), fuu, row_uu);
       row_q = hn::Add(row_q, q);
       row_uq = hn::MulAdd(q, fu, row_uq);
     }

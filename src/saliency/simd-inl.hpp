@@ -99,23 +99,23 @@ HWY_INLINE V in_register(V v) {
   return v;
 }
 
-/// sum + v where m, else sum.
-HWY_INLINE V add_where(M m, V v, V sum) {
+/// Which lanes' values enter a sum: a mask where sums can be masked, else 1 or 0 to be multiplied with.
 #if HWY_TARGET <= HWY_AVX3
+using Selection = M;
+HWY_INLINE Selection select(M m) { return m; }
+HWY_INLINE V add_where(Selection m, V v, V sum) {
   return V{_mm512_mask_add_ps(sum.raw, m.raw, sum.raw, v.raw)};
-#else
-  return hn::Add(sum, hn::IfThenElseZero(m, v));
-#endif
 }
-
-/// sum + a * b where m, else sum.
-HWY_INLINE V mul_add_where(M m, V a, V b, V sum) {
-#if HWY_TARGET <= HWY_AVX3
+/// sum + a * b where m, else sum; ab = a * b may be used instead.
+HWY_INLINE V add_product_where(Selection m, V a, V b, V, V sum) {
   return V{_mm512_mask3_fmadd_ps(a.raw, b.raw, sum.raw, m.raw)};
-#else
-  return hn::MulAdd(hn::IfThenElseZero(m, a), b, sum);
-#endif
 }
+#else
+using Selection = V;
+HWY_INLINE Selection select(M m) { return hn::IfThenElseZero(m, hn::Set(kF, 1.0f)); }
+HWY_INLINE V add_where(Selection m, V v, V sum) { return hn::MulAdd(m, v, sum); }
+HWY_INLINE V add_product_where(Selection m, V, V, V ab, V sum) { return hn::MulAdd(m, ab, sum); }
+#endif
 
 }  // namespace HWY_NAMESPACE
 }  // namespace saccade

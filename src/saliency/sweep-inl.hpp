@@ -94,12 +94,12 @@ HWY_INLINE void sum_in_front(const LevelPlanes& level, std::ptrdiff_t at, const 
         const V q = hn::Mul(hn::Sub(z, z0), load(inverse + j));
         const V nx = in_register(load(normal_x + j)), ny = in_register(load(normal_y + j)),
                 nz = in_register(load(normal_z + j));
-        const V dr = set(*row);
+        const V dr = set(*row), z_times_row = hn::Mul(z, dr);
         for (int i = 0; i < kCount; ++i) {
           const V side = hn::MulAdd(along_ray[i], q, hn::Load(kF, term + i * kLanes));
-          const M front = hn::Gt(side, threshold[i]);  // Eq. (2)
+          const Selection front = select(hn::Gt(side, threshold[i]));  // Eq. (2)
           counted[i] = add_where(front, p, counted[i]);
-          z_rows[i] = mul_add_where(front, z, dr, z_rows[i]);
+          z_rows[i] = add_product_where(front, z, dr, z_times_row, z_rows[i]);
           sum_x[i] = add_where(front, nx, sum_x[i]);
           sum_y[i] = add_where(front, ny, sum_y[i]);
           sum_z[i] = add_where(front, nz, sum_z[i]);

@@ -1,0 +1,121 @@
+// The operator: whole and by stage, for instruction sets, threads, kernels and image sizes, against the naive
+// reference in the same run. Counters: ms of each stage a frame, and the share of valid pixels.
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <random>
+#include <string>
+
+#include <benchmark/benchmark.h>
+#include <opencv2/imgcodecs.hpp>
+
+#include "core/error.hpp"
+#include "saliency/reference.hpp"
+#include "saliency/symmetry3d.hpp"
+
+namespace saccade {
+namespace {
+
+/// A table with balls on it before a wall, in whole millimetres with a Kinect's noise; `holes` of it missing.
+cv::Mat1f table(cv::Size size, double holes = 0.27) {
+  const Intrinsics camera = Intrinsics::guess_for(size);
+  std::mt19937 random(1);
+  std::normal_distribution<double> noise(0, 1);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  cv::Mat1f depth(size, 0.0f);
+  for (int r = 0; r < size.height; ++r)
+    for (int c = 0; c < size.width; ++c) {
+      const cv::Point3d ray = camera.point_mm(r, c, 1);
+      double z = std::min(2000.0, 800 / std::max(0.01, 0.7 * ray.y + 0.7));
+      for (int ball = 0; ball < 6; ++ball) {
+        const cv::Point3d centre(-350 + 140 * ball, 60 - 30 * (ball % 3), 850 + 60 * (ball % 2));
+        const double a = ray.dot(ray), b = ray.dot(centre), q = b * b - a * (centre.dot(centre) - 60 * 60);
+        if (q > 0) z = std::min(z, (b - std::sqrt(q)) / a);
+      }
+      depth(r, c) = static_cast<float>(std::round(z + 1.4e-6 * z * z * noise(random)));
+    }
+  // Shadows: upright strips, as structured light leaves them beside objects.
+  const double strip = 0.012 * size.width * 0.1 * size.height;
+  for (double missing = 0; missing < holes * size.area(); missing += strip) {
+    const cv::Rect shadow(static_cast<int>(uniform(random) * size.width),
+                          static_cast<int>(uniform(random) * size.height),
+                          std::max(1, static_cast<int>(0.012 * size.width)), std::max(1, size.height / 10));
+    depth(shadow & cv::Rect({0, 0}, size)) = 0;
+  }
+  return depth;
+}
+
+cv::Mat1f real_frame(const std::string& name) {
+  const std::filesystem::path path = std::filesystem::path(SACCADE_SHARED_DIR) / "data" / name;
+  cv::Mat1f depth;
+  if (std::filesystem::exists(path)) cv::imread(path.string(), cv::IMREAD_UNCHANGED).convertTo(depth, CV_32F);
+  return depth;
+}
+
+void run(benchmark::State& state, const cv::Mat1f& depth, const std::string& simd, int workers, int kernel) {
+  Symmetry3dParams params;
+  params.kernel = kernel;
+  WorkerPool pool(workers);
+  Symmetry3d op(params, pool, simd);
+  SaliencyMaps maps;
+  StageTimes warm_up, times;
+  const Intrinsics camera = Intrinsics::guess_for(depth.size());
+  op.compute(depth, camera, {}, maps, warm_up);
+  for (auto _ : state) op.compute(depth, camera, {}, maps, times);
+  const double frames = static_cast<double>(state.iterations());
+  for (const Stage stage : {Stage::points, Stage::symmetry, Stage::master_map})
+    state.counters[std::string(kStageNames[static_cast<std::size_t>(stage)]) + "_ms"] = times[stage] / frames;
+  state.counters["valid"] = static_cast<double>(cv::countNonZero(depth)) / static_cast<double>(depth.total());
+}
+
+/// The naive form, one thread; of the same image, so that it gives the ratio.
+void run_reference(benchmark::State& state, const cv::Mat1f& depth) {
+  for (auto _ : state)
+    benchmark::DoNotOptimize(reference::symmetry3d(depth, Intrinsics::guess_for(depth.size()), {}).master);
+}
+
+template <typename Function>
+void add(const std::string& name, Function function) {
+  benchmark::RegisterBenchmark(name.c_str(), function)->Unit(benchmark::kMillisecond)->UseRealTime();
+}
+
+bool can_run(const std::string& simd) {
+  try {
+    WorkerPool pool(1);
+    const Symmetry3d probe({}, pool, simd);
+    return true;
+  } catch (const Error&) {
+    return false;
+  }
+}
+
+void register_all() {
+  const auto add_run = [](const std::string& image, const cv::Mat1f& depth, const std::string& simd,
+                          int workers, int kernel) {
+    add(image + "/" + simd + "/threads:" + std::to_string(workers) + "/k:" + std::to_string(kernel),
+        [=](benchmark::State& state) { run(state, depth, simd, workers, kernel); });
+  };
+  const cv::Mat1f vga = table({640, 480});
+  add("table640x480/reference/threads:1/k:15", [=](benchmark::State& state) { run_reference(state, vga); });
+  for (const std::string simd : {"avx512", "avx2", "sse4", "neon", "scalar"}) {
+    if (!can_run(simd)) continue;
+    for (const int workers : {1, 2})
+      for (const int kernel : {10, 15, 20, 30}) add_run("table640x480", vga, simd, workers, kernel);
+  }
+  for (const cv::Size size : {cv::Size(320, 240), cv::Size(1280, 1024), cv::Size(1920, 1080)})
+    for (const int workers : {1, 2})
+      add_run("table" + std::to_string(size.width) + "x" + std::to_string(size.height), table(size), "auto",
+              workers, 15);
+  for (const std::string name :
+       {"osd_full/0000_depth.png", "rooms_avd/0000_depth.png", "kitchen_sequence/0000_depth.png"})
+    if (const cv::Mat1f depth = real_frame(name); !depth.empty())
+      for (const std::string simd : {"avx512", "avx2"})
+        if (can_run(simd))
+          for (const int workers : {1, 2}) add_run(name, depth, simd, workers, 15);
+}
+
+[[maybe_unused]] const bool registered = (register_all(), true);
+
+}  // namespace
+}  // namespace saccade
