@@ -19,7 +19,7 @@ constexpr const char* kNotInTable = "a pixel that is not in the table of values"
 
 // What a byte does that is no escape: one pixel `first` below the last, and then `pixels` - 1 of the value
 // `last` below the one before the byte. Runs are the same with differences of 0.
-struct Step {
+struct alignas(8) Step {  // a power of two, for the addressing
   std::uint16_t first = 0, last = 0;
   std::uint8_t pixels = 0;
   bool simple = false;  // not an escape, and at most kSimplePixels

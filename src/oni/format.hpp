@@ -27,6 +27,10 @@ constexpr std::uint64_t kOniMaxPayload = 64u << 20;
 constexpr std::uint32_t kOniMaxName = 256;
 constexpr std::uint32_t kOniMaxSide = 8192;          ///< px
 constexpr std::uint64_t kOniMaxPixels = 16'000'000;  ///< of one image
+/// In a larger image, a cropped frame must be at least 1/kOniMaxCropRatio of it: a few bytes of a frame must
+/// not ask for a huge image.
+constexpr std::uint64_t kOniFreeCropPixels = 1600 * 1200;
+constexpr std::uint64_t kOniMaxCropRatio = 64;
 constexpr std::size_t kOniMaxNodes = 64;
 constexpr std::size_t kOniMaxFrames = 5'000'000;        ///< in one file
 constexpr std::size_t kOniMaxChanges = 4096;            ///< of properties, per node

@@ -129,6 +129,11 @@ OniFormat format_at(const OniNode& node, std::uint64_t position) {
     return fail(fmt::format("impossible image size {} x {}", width, height));
   format.size = {static_cast<int>(width), static_cast<int>(height)};
   format.crop = crop_at(node, position, format.size);
+  const auto whole = static_cast<std::uint64_t>(format.size.area()),
+             part = static_cast<std::uint64_t>(format.crop.area());
+  if (whole > kOniFreeCropPixels && whole / kOniMaxCropRatio > part)
+    return fail(fmt::format("frames of {} x {} in an image of {} x {}", format.crop.width, format.crop.height,
+                            width, height));
   if (rate >= 1 && rate <= 1000) format.rate_hz = rate;
   const auto pixels = pixel_format(node, position);
   if (!pixels) return fail(fmt::format("impossible pixel format for {}", to_string(node.declared.type)));

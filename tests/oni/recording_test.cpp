@@ -168,6 +168,16 @@ TEST_F(RecordingTest, AHugeSizeIsNotAllocatedForASmallPayload) {
   }
 }
 
+TEST_F(RecordingTest, AHugeImageIsNotAllocatedForACroppedFrame) {
+  const auto file = make({.width = 8192, .height = 1900}, {Bytes(8, 1)}, [](OniRecordWriter& writer) {
+    ByteBuilder crop;
+    crop.put(std::uint32_t{1});
+    for (const int v : {0, 0, 2, 2}) crop.put(static_cast<std::uint16_t>(v));
+    writer.add_property(1, OniRecordType::general_property, oni_property::kCropping, crop.bytes());
+  });
+  EXPECT_THAT(fault_of(file), HasSubstr("2 x 2 in an image of 8192 x 1900"));
+}
+
 TEST_F(RecordingTest, CroppingOutsideOfTheImageIsIgnored) {
   const auto file = make({}, {Bytes(24, 1)}, [](OniRecordWriter& writer) {
     ByteBuilder crop;
