@@ -65,7 +65,6 @@ class Run {
     Interrupt interrupt([this] { stop(); });
     auto source = open_source(uri);
     report_.source = source->info();
-    tell_notes();
     check_levels(report_.source.size, Symmetry3dParams::from(report_.settings));
     check_start();
     auto processor = make_processor(report_.settings);
@@ -82,6 +81,7 @@ class Run {
       throw;
     }
     write_manifest();
+    tell_rejected();
     tell_summary();
   }
 
@@ -105,6 +105,7 @@ class Run {
     });
     try {
       while (ResultHandle result = pipeline.next()) {
+        tell_notes();
         fixations.append(fixations_json(*result));
         report_.stages.add(result->times);
         writer.submit(std::move(result));
@@ -131,12 +132,22 @@ class Run {
     report_.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   }
 
-  void tell_notes() const {
+  // With the first result: a run that gives none says in one line why, and nothing else.
+  void tell_notes() {
+    if (std::exchange(notes_told_, true)) return;
     for (const std::string& note : report_.source.notes) spdlog::warn("{}: {}", report_.source.uri, note);
     const Intrinsics& camera = report_.source.intrinsics;
     if (!report_.settings.intrinsics && camera.origin == IntrinsicsOrigin::guess)
       spdlog::warn("{}: no calibration, guessing fx={} fy={} cx={} cy={} (give --intrinsics fx,fy,cx,cy)",
                    report_.source.uri, camera.fx, camera.fy, camera.cx, camera.cy);
+  }
+
+  void tell_rejected() const {
+    if (report_.rejected.empty()) return;
+    const auto& [index, reason] = report_.rejected.front();
+    spdlog::warn("{}: {} frame{} rejected (manifest.json lists them), the first, frame {}: {}",
+                 report_.source.uri, report_.rejected.size(), report_.rejected.size() == 1 ? "" : "s", index,
+                 reason);
   }
 
   void check_start() const {
@@ -150,14 +161,11 @@ class Run {
     if (report_.ledger.processed == 0 && !report_.rejected.empty())
       throw unreadable(fmt::format("none of {} frames could be used; the first: {}", report_.rejected.size(),
                                    report_.rejected.front().second),
-                       report_.source.uri, "depth must be 16-bit gray in mm, colour of the same size");
+                       report_.source.uri, "manifest.json lists them all with their reasons");
   }
 
   // On the capture thread; read by the others after it has ended.
-  void reject(std::int64_t index, const std::string& reason) {
-    spdlog::warn("frame {} rejected: {}", index, reason);
-    report_.rejected.emplace_back(index, reason);
-  }
+  void reject(std::int64_t index, const std::string& reason) { report_.rejected.emplace_back(index, reason); }
 
   void write_manifest() const {
     write_file(folder_ / "manifest.json", manifest_json(report_).dump(2) + "\n");
@@ -209,6 +217,7 @@ class Run {
 
   fs::path folder_;
   RunReport report_;
+  bool notes_told_ = false;
   std::mutex mutex_;
   Pipeline* pipeline_ = nullptr;  // guarded by mutex_
   bool stopped_ = false;          // guarded by mutex_
