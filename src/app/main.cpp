@@ -9,6 +9,7 @@
 #include <spdlog/spdlog.h>
 #include <CLI/CLI.hpp>
 
+#include "app/eval_command.hpp"
 #include "app/oni_command.hpp"
 #include "app/options.hpp"
 #include "app/record_command.hpp"
@@ -56,6 +57,7 @@ int run_program(int argc, char** argv) {
   });
 
   saccade::add_record_command(app, action);
+  saccade::add_eval_command(app, action, set_up_log);
   saccade::add_oni_command(app, action);
 
   try {
