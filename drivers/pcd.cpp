@@ -69,7 +69,11 @@ void for_each_field(Header& header, const std::vector<string_view>& words, Set s
 }
 
 void read_line(Header& header, const std::vector<string_view>& words) {
+  constexpr std::array<string_view, 11> kKeys = {"VERSION", "FIELDS", "COLUMNS",   "SIZE",   "TYPE", "COUNT",
+                                                 "WIDTH",   "HEIGHT", "VIEWPOINT", "POINTS", "DATA"};
   const string_view key = words[0];
+  if (std::find(kKeys.begin(), kKeys.end(), key) == kKeys.end())
+    throw broken("its header has an unknown line");
   if (words.size() < 2) throw broken(fmt::format("nothing behind {}", key));
   const auto side = [&](const char* what) {
     return static_cast<int>(whole_number(words[1], 1u << 30, what));
@@ -191,8 +195,7 @@ double parse_number(string_view word) {
   double value = 0;
   const auto [end, code] = std::from_chars(word.data(), word.data() + word.size(), value);
   if (code == std::errc::result_out_of_range) return std::nan("");
-  if (code != std::errc{} || end != word.data() + word.size())
-    throw broken(fmt::format("'{}' is no number", word.substr(0, 20)));
+  if (code != std::errc{} || end != word.data() + word.size()) throw broken("a value is no number");
   return value;
 }
 
@@ -273,7 +276,7 @@ Points read_points(const Header& header, Bytes data) {
   if (header.encoding == "ascii") return read_ascii(header, text_of(data));
   if (header.encoding == "binary") return read_binary(header, data, false);
   if (header.encoding == "binary_compressed") return read_compressed(header, data);
-  throw broken(fmt::format("unknown encoding '{}'", header.encoding));
+  throw broken("its DATA is not ascii, binary or binary_compressed");
 }
 
 }  // namespace

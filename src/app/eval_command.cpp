@@ -12,6 +12,7 @@
 #include <spdlog/spdlog.h>
 #include <nlohmann/json.hpp>
 
+#include "app/command.hpp"
 #include "app/interrupt.hpp"
 #include "app/options.hpp"
 #include "app/progress.hpp"
@@ -32,14 +33,6 @@ namespace {
 
 constexpr double kPictureScale = 2;  // pixels of hr.png per px of hr.svg
 
-void make_folder(const fs::path& folder) {
-  std::error_code code;
-  fs::create_directories(folder, code);
-  if (code || !fs::is_directory(folder))
-    throw failed("cannot make the output folder" + (code ? ": " + code.message() : std::string()),
-                 folder.string(), "choose a folder that can be written with --out");
-}
-
 Error interrupted(const fs::path& folder) {
   return failed("interrupted", folder.string(), "the same command goes on from here");
 }
@@ -48,9 +41,7 @@ Error interrupted(const fs::path& folder) {
 std::int64_t selected_frames(const SourceInfo& source, const Settings& settings) {
   if (source.live || !source.frame_count)
     throw usage_error("not a data set", source.uri, "images with labels are needed, not a live sensor");
-  if (settings.start >= *source.frame_count)
-    throw usage_error(fmt::format("--start {} is behind the last frame", settings.start), source.uri,
-                      fmt::format("it has {} frames, counted from 0", *source.frame_count));
+  check_start(source, settings);
   const std::int64_t all = (*source.frame_count - settings.start + settings.every - 1) / settings.every;
   return settings.frames > 0 ? std::min(all, settings.frames) : all;
 }
@@ -169,9 +160,9 @@ void write_report(const StoredResults& results, FrameSource* source, const fs::p
   if (source != nullptr) write_examples(examples, plan, *source, pool, out, [&] { return stop.load(); });
   if (stop) throw interrupted(out);
   write_file(out / "index.html", page_html(plan, results.images, statistics, svg, examples));
-  write_file(out / "report.json", report_json(plan, results.images, statistics).dump(2) + "\n");
+  write_file(out / "report.json", dump(report_json(plan, results.images, statistics), 2) + "\n");
   if (settings.json)
-    fmt::print("{}\n", summary_json(results, statistics, out.string()).dump());
+    fmt::print("{}\n", dump(summary_json(results, statistics, out.string())));
   else if (!settings.quiet)
     fmt::print("{}{} images; see {}\n", report_text(plan, statistics), statistics.images,
                (out / "index.html").string());
@@ -185,12 +176,12 @@ void eval(const EvalArguments& arguments, const Settings& settings) {
   std::atomic<bool> stop = false;
   const Interrupt interrupt([&] { stop = true; });
   const auto source = open_source(arguments.dataset);
-  for (const std::string& note : source->info().notes) spdlog::warn("{}: {}", arguments.dataset, note);
+  tell_notes(source->info(), settings);
   const EvalPlan plan = make_plan(arguments, settings, source->info());
   WorkerPool pool(worker_count(settings));
   Evaluation evaluation(plan, *source, pool);
   const fs::path out = arguments.out;
-  make_folder(out);
+  make_output_folder(out);
   StoredResults results = resume_results(out, plan);
   const auto before = static_cast<std::int64_t>(results.images.size());
   if (before > 0) spdlog::info("{}: {} images are there already", out.string(), before);
@@ -219,7 +210,7 @@ void eval_merge(const EvalArguments& arguments, const Settings& settings) {
     spdlog::warn("no pictures of examples: {}", error.what());
   }
   const fs::path out = arguments.out;
-  make_folder(out);
+  make_output_folder(out);
   write_results(out, results);
   WorkerPool pool(worker_count(settings));
   write_report(results, source.get(), out, settings, pool, stop);

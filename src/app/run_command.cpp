@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 #include <opencv2/core.hpp>
 
+#include "app/command.hpp"
 #include "app/fixations_json.hpp"
 #include "app/frame_writer.hpp"
 #include "app/interrupt.hpp"
@@ -40,14 +41,6 @@ std::optional<std::int64_t> expected_frames(const SourceInfo& source, const Sett
   return expected;
 }
 
-void make_folder(const fs::path& folder) {
-  std::error_code code;
-  fs::create_directories(folder, code);
-  if (code || !fs::is_directory(folder))
-    throw failed("cannot make the output folder" + (code ? ": " + code.message() : std::string()),
-                 folder.string(), "choose a folder that can be written with --out");
-}
-
 // One `saccade run`, from open source to manifest.
 class Run {
  public:
@@ -62,11 +55,11 @@ class Run {
     Interrupt interrupt([this] { stop(); });
     auto source = open_source(uri);
     report_.source = source->info();
-    tell_notes();
+    tell_notes(report_.source, report_.settings);
     check_levels(report_.source.size, Symmetry3dParams::from(report_.settings));
-    check_start();
+    check_start(report_.source, report_.settings);
     auto processor = make_processor(report_.settings);
-    make_folder(folder_);
+    make_output_folder(folder_);
     write_manifest();
     try {
       process(std::move(source), std::move(processor));
@@ -126,21 +119,6 @@ class Run {
     }
     report_.ledger = pipeline.ledger();
     report_.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  }
-
-  void tell_notes() const {
-    for (const std::string& note : report_.source.notes) spdlog::warn("{}: {}", report_.source.uri, note);
-    const Intrinsics& camera = report_.source.intrinsics;
-    if (!report_.settings.intrinsics && camera.origin == IntrinsicsOrigin::guess)
-      spdlog::warn("{}: no calibration, guessing fx={} fy={} cx={} cy={} (give --intrinsics fx,fy,cx,cy)",
-                   report_.source.uri, camera.fx, camera.fy, camera.cx, camera.cy);
-  }
-
-  void check_start() const {
-    const auto& count = report_.source.frame_count;
-    if (count && report_.settings.start >= *count)
-      throw usage_error(fmt::format("--start {} is behind the last frame", report_.settings.start),
-                        report_.source.uri, fmt::format("it has {} frames, counted from 0", *count));
   }
 
   void check_any_processed() const {

@@ -113,6 +113,10 @@ Json plan_json(const EvalPlan& plan) {
           {"shard", plan.shard},      {"shards", plan.shards}};
 }
 
+std::string dump(const Json& json, int indent) {
+  return json.dump(indent, ' ', false, Json::error_handler_t::replace);
+}
+
 EvalPlan plan_from_json(const Json& json) {
   if (json.at("format") != kFormat) throw usage_error("results of another version", "", "evaluate again");
   EvalPlan plan;

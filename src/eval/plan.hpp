@@ -55,6 +55,9 @@ void parse_shard(EvalPlan& plan, const std::string& text);
 /// All that the results depend on; what must be the same to go on with an interrupted evaluation.
 nlohmann::ordered_json plan_json(const EvalPlan& plan);
 
+/// A JSON value as text. Names of files need not be UTF-8: what is not is replaced.
+std::string dump(const nlohmann::ordered_json& json, int indent = -1);
+
 /// The plan that plan_json() wrote. Throws Error (usage) or a JSON exception if it is none.
 EvalPlan plan_from_json(const nlohmann::ordered_json& json);
 

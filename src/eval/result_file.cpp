@@ -92,7 +92,7 @@ std::string difference(const Json& stored, const Json& wanted) {
     if (other == stored.end()) return fmt::format("{} is not told", key);
     if (*other == value) continue;
     if (value.is_object()) return difference(*other, value);
-    return fmt::format("{} is {}, not {}", key, other->dump(), value.dump());
+    return fmt::format("{} is {}, not {}", key, dump(*other), dump(value));
   }
   return "";
 }
@@ -108,7 +108,7 @@ void sort_by_frame(std::vector<ImageResult>& images) {
 
 }  // namespace
 
-std::string plan_line(const EvalPlan& plan) { return plan_json(plan).dump(); }
+std::string plan_line(const EvalPlan& plan) { return dump(plan_json(plan)); }
 
 std::string image_line(const ImageResult& image) {
   Json json = {{"frame", image.frame}, {"name", image.name}};
@@ -122,7 +122,7 @@ std::string image_line(const ImageResult& image) {
     for (const ConditionResult& condition : image.conditions)
       json["conditions"].push_back(condition_json(condition));
   }
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return dump(json);
 }
 
 std::string end_line() { return Json({{"end", true}}).dump(); }
