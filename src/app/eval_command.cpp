@@ -240,7 +240,7 @@ void add_eval_command(CLI::App& app, std::function<void()>& action,
   command.add_option("--selectors", a.selectors, "proto, wta [that of the settings]")->type_name("LIST");
   command.add_option("--points", a.points, "attention points per image, 1..1000 [30]")
       ->type_name("N")
-      ->check(CLI::Range(1, 1000));
+      ->check(CLI::Range(1, kMostPoints));
   command.add_option("--shard", a.shard, "evaluate only each n-th image, from the i-th; merge afterwards")
       ->type_name("i/n");
   command.add_option("--merge", a.merge, "folders of all shards, instead of DATASET")

@@ -239,10 +239,14 @@ Drawing draw_hit_ratios(const EvalPlan& plan, const Statistics& statistics) {
   }
   drawing.width = kLeft / 2 + static_cast<double>(columns) * (kPanelWidth + kGap + kLeft / 2) + kLegendWidth;
   drawing.height = height + 10;
+  bool shaded = false;
+  for (const Row& row : rows)
+    for (const Series& series : row.panels[0].series) shaded = shaded || series.shaded;
   drawing.shapes.emplace_back(
       Text{{kLeft, 28},
-           fmt::format("Hit Ratio, {} image{}, {:.1f} objects each; shaded: 95 % interval", statistics.images,
-                       statistics.images == 1 ? "" : "s", statistics.objects_mean),
+           fmt::format("Hit Ratio, {} image{}, {:.1f} objects each{}", statistics.images,
+                       statistics.images == 1 ? "" : "s", statistics.objects_mean,
+                       shaded ? "; shaded: 95 % interval" : ""),
            15,
            Anchor::start,
            kInk});

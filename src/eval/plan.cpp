@@ -16,6 +16,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr int kFormat = 1;  // of results.jsonl
+constexpr int kMostShards = 100'000;
 
 // Settings that a plan names itself, and those that change no result.
 constexpr std::array<std::string_view, 9> kNotInPlan = {"model", "kernel", "selector", "fixations", "workers",
@@ -89,16 +90,15 @@ void parse_lists(EvalPlan& plan, const std::string& models, const std::string& k
 }
 
 void parse_shard(EvalPlan& plan, const std::string& text) {
-  constexpr int kMost = 100'000;
   const char* end = text.data() + text.size();
   const auto [slash, first] = std::from_chars(text.data(), end, plan.shard);
   const bool divided = first == std::errc{} && slash != end && *slash == '/';
   const auto [stop, second] =
       divided ? std::from_chars(slash + 1, end, plan.shards) : std::from_chars_result{slash, std::errc{}};
   if (!divided || second != std::errc{} || stop != end || plan.shard < 1 || plan.shard > plan.shards ||
-      plan.shards > kMost)
+      plan.shards > kMostShards)
     throw usage_error("bad value for shard", fmt::format("'{}'", text),
-                      fmt::format("expected i/n with 1 <= i <= n <= {}, e.g. 3/8", kMost));
+                      fmt::format("expected i/n with 1 <= i <= n <= {}, e.g. 3/8", kMostShards));
 }
 
 Json plan_json(const EvalPlan& plan) {
@@ -122,16 +122,19 @@ EvalPlan plan_from_json(const Json& json) {
   EvalPlan plan;
   plan.dataset = json.at("dataset");
   plan.positions = json.at("frames");
-  plan.models = json.at("models").get<std::vector<std::string>>();
-  plan.kernels = json.at("kernels").get<std::vector<int>>();
   plan.points = json.at("points");
   plan.shard = json.at("shard");
   plan.shards = json.at("shards");
-  for (const auto& name : json.at("selectors")) {
-    Settings s;
-    apply_setting(s, "selector", name);
-    plan.selectors.push_back(s.selector);
-  }
+  if (plan.points < 1 || plan.points > kMostPoints || plan.shard < 1 || plan.shards < plan.shard ||
+      plan.shards > kMostShards)
+    throw usage_error("points or shard out of range", "", "evaluate again");
+  const auto list = [&](const char* key) {
+    std::string words;
+    for (const auto& word : json.at(key))
+      words += (words.empty() ? "" : ",") + (word.is_string() ? word.get<std::string>() : word.dump());
+    return words;
+  };
+  parse_lists(plan, list("models"), list("kernels"), list("selectors"));
   for (const auto& [key, value] : json.at("settings").items()) apply_setting(plan.settings, key, value);
   return plan;
 }

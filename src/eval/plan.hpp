@@ -23,6 +23,8 @@ struct Condition {
 std::string describe(const Condition& condition);
 std::string to_string(Selector selector);
 
+inline constexpr int kMostPoints = 1000;
+
 /// What is evaluated, on which part of a data set.
 struct EvalPlan {
   std::string dataset;  ///< SOURCE of SPEC section 7

@@ -120,7 +120,7 @@ TEST_F(EvalTest, GoesOnAfterACut) {
 }
 
 TEST_F(EvalTest, GoesOnAfterAnInterruption) {
-  const std::string many = "synthetic:table?seed=3&size=160x120&frames=300&camera=orbit&rate=3";
+  const std::string many = "synthetic:table?seed=3&size=160x120&frames=120&camera=orbit&rate=3";
   const Outcome stopped = run_saccade(command(many, in("stopped")), 0, folder_ / "stopped/results.jsonl");
   EXPECT_EQ(stopped.status, kFailed);
   EXPECT_THAT(stopped.err, HasSubstr("interrupted"));

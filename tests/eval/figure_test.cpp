@@ -28,7 +28,7 @@ TEST(Figure, ShowsAxesLegendAndBound) {
   EXPECT_THAT(svg, HasSubstr(">upper bound<"));
   EXPECT_THAT(svg, HasSubstr(">random (expected)<"));
   EXPECT_THAT(svg, HasSubstr(">centre (expected)<"));
-  EXPECT_THAT(svg, HasSubstr("2 images, 1.5 objects"));
+  EXPECT_THAT(svg, HasSubstr("2 images, 1.5 objects each; shaded"));
   // One model, two kernels: a panel for each selector compares the kernels.
   EXPECT_EQ(occurrences(svg, ">symmetry3d, proto<"), 1);
   EXPECT_EQ(occurrences(svg, ">symmetry3d, wta<"), 1);

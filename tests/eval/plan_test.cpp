@@ -88,6 +88,22 @@ TEST(EvalPlan, ComesBackFromJson) {
   EXPECT_EQ(again.conditions(), plan.conditions());
 }
 
+TEST(EvalPlan, JsonOfNoPlan) {
+  const std::vector<std::pair<std::string, std::string>> wrong = {{"models", R"(["../nonsense"])"},
+                                                                  {"kernels", "[1]"},
+                                                                  {"selectors", R"(["none"])"},
+                                                                  {"points", "0"},
+                                                                  {"shard", "2"},
+                                                                  {"format", "2"}};
+  for (const auto& [key, value] : wrong) {
+    auto json = plan_json(sample_plan());
+    json[key] = nlohmann::ordered_json::parse(value);
+    usage_error_of([&] { plan_from_json(json); });
+    json.erase(key);
+    EXPECT_ANY_THROW(plan_from_json(json)) << key;
+  }
+}
+
 TEST(EvalPlan, JsonLeavesOutWhatChangesNoResult) {
   EvalPlan plan = sample_plan();
   const auto before = plan_json(plan);
