@@ -11,12 +11,14 @@
 
 #include "core/error.hpp"
 #include "core/file.hpp"
+#include "drivers/osd_listing.hpp"
 
 namespace saccade {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr const char* kLayoutHint = "expected NNNN_depth.png files, or a TUM RGB-D folder with depth.txt";
+constexpr const char* kLayoutHint =
+    "expected NNNN_depth.png files, a TUM RGB-D folder with depth.txt, or image_color/, depth/, annotation/";
 
 // The number of "NNNN_depth.png"; nothing for another name.
 std::optional<std::int64_t> frame_number(const std::string& name) {
@@ -147,7 +149,8 @@ FolderListing list_folder(const fs::path& folder) {
   std::error_code code;
   if (!fs::is_directory(folder, code)) throw unreadable("no such folder", folder.string(), "check the path");
   try {
-    return fs::exists(folder / "depth.txt") ? list_tum(folder) : list_numbered(folder);
+    if (fs::exists(folder / "depth.txt")) return list_tum(folder);
+    return is_osd(folder) ? list_osd(folder) : list_numbered(folder);
   } catch (const fs::filesystem_error& error) {
     throw unreadable("cannot list the folder: " + error.code().message(), folder.string(),
                      "check its permissions");

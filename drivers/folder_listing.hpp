@@ -18,15 +18,16 @@ struct FolderEntry {
 };
 
 struct FolderListing {
-  std::string kind;  ///< "folder" or "tum"
+  std::string kind;  ///< "folder", "tum" or "osd"
   std::vector<FolderEntry> entries;
   double mm_per_unit = 1;
   double rate_hz = 30;
   std::vector<std::string> notes;
+  std::filesystem::path cloud;  ///< an organised point cloud, whose points tell the camera; may be empty
 };
 
-/// Finds the frames of either layout. Throws Error (unreadable) if there is no folder or there are no frames
-/// in it.
+/// Finds the frames of any of the layouts. Throws Error (unreadable) if there is no folder or there are no
+/// frames in it.
 FolderListing list_folder(const std::filesystem::path& folder);
 
 /// fx, fy, cx, cy of `folder`/meta.json; std::nullopt if there is no such file or it has none of the four.

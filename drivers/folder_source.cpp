@@ -1,6 +1,8 @@
 #include "drivers/folder_source.hpp"
 
 #include <algorithm>
+#include <map>
+#include <optional>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -10,6 +12,7 @@
 #include "core/file.hpp"
 #include "core/png.hpp"
 #include "drivers/folder_listing.hpp"
+#include "drivers/pcd.hpp"
 
 namespace saccade {
 namespace fs = std::filesystem;
@@ -27,6 +30,26 @@ std::string depth_problem(const PngHeader& header) {
   return "";
 }
 
+bool is_cloud(const fs::path& path) { return path.extension() == ".pcd" || path.extension() == ".PCD"; }
+
+// Labels of an image in colour: black is no object, the other colours are 1, 2, .. in the order of their
+// values.
+cv::Mat1w labels_of_colours(const cv::Mat3b& image) {
+  constexpr std::size_t kMost = 65535;
+  std::map<int, std::uint16_t> labels;
+  const auto code = [](const cv::Vec3b& bgr) { return bgr[2] << 16 | bgr[1] << 8 | bgr[0]; };
+  for (const cv::Vec3b& pixel : image) labels.emplace(code(pixel), std::uint16_t{0});
+  labels.erase(0);
+  if (labels.size() > kMost) throw std::runtime_error("too many colours for labels");
+  std::uint16_t next = 0;
+  for (auto& [colour, label] : labels) label = ++next;
+  labels.emplace(0, std::uint16_t{0});
+  cv::Mat1w out(image.size());
+  std::transform(image.begin(), image.end(), out.begin(),
+                 [&](const cv::Vec3b& pixel) { return labels.at(code(pixel)); });
+  return out;
+}
+
 std::string plain(cv::Size size) { return fmt::format("{}x{}", size.width, size.height); }
 
 class FolderSource : public FrameSource {
@@ -38,7 +61,8 @@ class FolderSource : public FrameSource {
     info_.frame_count = static_cast<std::int64_t>(listing_.entries.size());
     info_.rate_hz = listing_.rate_hz;
     info_.notes = listing_.notes;
-    const auto camera = read_meta(folder);
+    auto camera = read_meta(folder);
+    if (!camera) camera = camera_of_cloud();
     info_.intrinsics = camera ? *camera : Intrinsics::guess_for(info_.size);
   }
 
@@ -72,6 +96,7 @@ class FolderSource : public FrameSource {
     for (const FolderEntry& entry : listing_.entries) {
       std::string problem;
       try {
+        if (is_cloud(entry.depth)) return read_pcd_size(read_file(entry.depth));
         const PngHeader header = read_png_header(read_file(entry.depth));
         problem = depth_problem(header);
         if (problem.empty()) return header.size;
@@ -82,17 +107,35 @@ class FolderSource : public FrameSource {
         first_problem = fmt::format("{}: {}", entry.depth.filename().string(), problem);
     }
     throw unreadable("no usable depth image; " + first_problem, folder.string(),
-                     "depth must be 16-bit gray PNG in mm, 8 to 8192 pixels a side");
+                     "depth must be 16-bit gray PNG in mm or an organised PCD, 8 to 8192 pixels a side");
+  }
+
+  std::optional<Intrinsics> camera_of_cloud() {
+    if (listing_.cloud.empty()) return std::nullopt;
+    try {
+      return read_pcd(read_file(listing_.cloud)).intrinsics;
+    } catch (const std::runtime_error& error) {
+      info_.notes.push_back(fmt::format("{}: {}", listing_.cloud.filename().string(), error.what()));
+      return std::nullopt;
+    }
+  }
+
+  void check_depth_size(cv::Size size) const {
+    if (size != info_.size)
+      throw std::runtime_error(fmt::format("{}, but the first frame is {}", plain(size), plain(info_.size)));
   }
 
   void read_depth(const fs::path& path, Frame& frame) const {
     const auto bytes = read_file(path);
+    if (is_cloud(path)) {
+      check_depth_size(read_pcd_size(bytes));
+      frame.depth_mm = read_pcd(bytes).depth_mm;
+      return;
+    }
     const PngHeader header = read_png_header(bytes);
     if (const std::string problem = depth_problem(header); !problem.empty())
       throw std::runtime_error(problem);
-    if (header.size != info_.size)
-      throw std::runtime_error(
-          fmt::format("{}, but the first frame is {}", plain(header.size), plain(info_.size)));
+    check_depth_size(header.size);
     decode_png(bytes).convertTo(frame.depth_mm, CV_32F, listing_.mm_per_unit);
   }
 
@@ -123,8 +166,12 @@ class FolderSource : public FrameSource {
     frame.truth.labels.release();
     if (path.empty()) return;
     const cv::Mat image = decode_png(read_file(path));
-    if (image.channels() != 1) throw std::runtime_error("labels must be gray or palette");
     check_size(image.size());
+    if (image.channels() != 1) {
+      if (info_.kind != "osd") throw std::runtime_error("labels must be gray or palette");
+      frame.truth.labels = labels_of_colours(image);
+      return;
+    }
     image.convertTo(frame.truth.labels, CV_16U);
   }
 

@@ -4,6 +4,7 @@
 
 #include "core/error.hpp"
 #include "drivers/folder_source.hpp"
+#include "drivers/nyu_source.hpp"
 #include "drivers/oni_source.hpp"
 #include "drivers/synthetic_source.hpp"
 
@@ -13,10 +14,11 @@ std::unique_ptr<FrameSource> open_source(const std::string& uri) {
   if (uri.starts_with("synthetic:")) return std::make_unique<SyntheticSource>(uri);
   if (std::filesystem::is_directory(uri)) return open_folder(uri);
   if (std::filesystem::path(uri).extension() == ".oni") return std::make_unique<OniSource>(uri);
+  if (std::filesystem::exists(uri) && std::filesystem::path(uri).extension() == ".mat") return open_nyu(uri);
   if (std::filesystem::exists(uri))
     throw unreadable("not a kind of file that can be read", uri,
-                     "a folder of images or an .oni recording is expected");
-  throw unreadable("no such source", uri, "a folder of images, FILE.oni, or synthetic:NAME");
+                     "a folder of images, an .oni recording or the .mat of NYU Depth V2 is expected");
+  throw unreadable("no such source", uri, "a folder of images, FILE.oni, FILE.mat or synthetic:NAME");
 }
 
 }  // namespace saccade

@@ -61,7 +61,7 @@ struct Key {
 
 using Spec = SyntheticSpec;
 
-constexpr std::array<Key, 8> kKeys = {{
+constexpr std::array<Key, 9> kKeys = {{
     {"seed", "a whole number, 0..9007199254740992",
      [](string_view v, Spec& s) { return read_number<std::uint64_t>(v, 0, std::uint64_t{1} << 53, s.seed); }},
     {"noise", "none or kinect",
@@ -70,6 +70,8 @@ constexpr std::array<Key, 8> kKeys = {{
      }},
     {"frames", "a whole number, 1..1000000",
      [](string_view v, Spec& s) { return read_number<std::int64_t>(v, 1, 1'000'000, s.frames); }},
+    {"scenes", "a whole number, 1..1000000",
+     [](string_view v, Spec& s) { return read_number<std::int64_t>(v, 1, 1'000'000, s.scenes); }},
     {"size", "WxH with both in 1..8192, e.g. 640x480",
      [](string_view v, Spec& s) { return read_size(v, s.size); }},
     {"camera", "still or orbit",
@@ -145,6 +147,14 @@ SyntheticSource::SyntheticSource(const std::string& uri)
                       IntrinsicsOrigin::sensor};
 }
 
+void SyntheticSource::set_scene(std::int64_t number) {
+  if (number == scene_number_) return;
+  scene_ = scene::make_scene(
+      spec_.scene, {spec_.seed + static_cast<std::uint64_t>(number), spec_.objects, spec_.distance_mm});
+  scene_number_ = number;
+  looked_ = false;
+}
+
 void SyntheticSource::look(double time_s) {
   scene::render(scene_, info_.intrinsics, spec_.size, scene_.camera_at(time_s), view_);
   if (spec_.noise == SyntheticSpec::Noise::kinect) kinect_.set_view(view_, info_.intrinsics);
@@ -153,6 +163,7 @@ void SyntheticSource::look(double time_s) {
 ReadResult SyntheticSource::read(Frame& frame, std::chrono::milliseconds) {
   if (next_ >= spec_.frames) return {ReadStatus::end, {}};
   const std::int64_t index = next_++;
+  set_scene(index % spec_.scenes);
   if (spec_.camera == SyntheticSpec::Camera::orbit) {
     look(static_cast<double>(index) / spec_.rate_hz);
   } else if (!looked_) {

@@ -20,6 +20,7 @@ struct SyntheticSpec {
   std::uint64_t seed = 0;             ///< seed=0..2^53: placement, colours and noise
   Noise noise = Noise::none;          ///< noise=none (exact depth, fractions of mm) | kinect (whole mm)
   std::int64_t frames = 90;           ///< frames=1..1000000
+  std::int64_t scenes = 1;            ///< scenes=1..1000000: frame k shows the scene of seed + k mod scenes
   cv::Size size{640, 480};            ///< size=WxH, 1x1..8192x8192
   Camera camera = Camera::still;      ///< camera=still | orbit (a slow swing about the scene)
   double rate_hz = 30;                ///< rate=0.1..1000, Hz: of the time stamps and of the orbit
@@ -34,7 +35,7 @@ SyntheticSpec parse_synthetic(const std::string& uri);
 /// A ray-cast scene as a source of frames, with exact labels and normals; these stay exact where the depth
 /// is noisy. The intrinsics are the camera's own: fx = fy = 525 at a width of 640, principal point in the
 /// middle. Frame k depends on the specification and k alone, in whatever order frames are read.
-/// A still camera renders once; noise is drawn for every frame.
+/// A still camera renders a scene once while it stays in view; noise is drawn for every frame.
 class SyntheticSource : public FrameSource {
  public:
   /// Throws as parse_synthetic().
@@ -48,6 +49,7 @@ class SyntheticSource : public FrameSource {
   const SyntheticSpec& spec() const { return spec_; }
 
  private:
+  void set_scene(std::int64_t number);
   void look(double time_s);
 
   SyntheticSpec spec_;
@@ -55,7 +57,8 @@ class SyntheticSource : public FrameSource {
   scene::Scene scene_;
   scene::SceneRender view_;
   scene::KinectModel kinect_;
-  bool looked_ = false;  // view_ is of the still camera
+  std::int64_t scene_number_ = 0;  // which of spec_.scenes scene_ is
+  bool looked_ = false;            // view_ is of the still camera
   std::int64_t next_ = 0;
 };
 

@@ -2,10 +2,11 @@
 
 namespace saccade {
 
-SettingsOptions::SettingsOptions(CLI::App& command) {
+SettingsOptions::SettingsOptions(CLI::App& command, const std::set<std::string_view>& left_out) {
   command.add_option("--config", config_, "TOML file of settings; options of the command line come over it")
       ->type_name("FILE");
   for (const SettingSpec& spec : setting_specs()) {
+    if (left_out.contains(spec.key)) continue;
     const std::string key(spec.key);
     const std::string help = std::string(spec.help) + " [" + spec.print(Settings{}) + "]";
     if (spec.is_switch())

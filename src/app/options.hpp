@@ -1,7 +1,9 @@
 #pragma once
 
 #include <memory>
+#include <set>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -15,8 +17,9 @@ namespace saccade {
 /// first and the options are laid over it, wherever they stand on the command line.
 class SettingsOptions {
  public:
-  /// Adds the options to `command`, which must not outlive this.
-  explicit SettingsOptions(CLI::App& command);
+  /// Adds the options to `command`, which must not outlive this, except for the keys `left_out`: a file may
+  /// hold these too.
+  explicit SettingsOptions(CLI::App& command, const std::set<std::string_view>& left_out = {});
 
   /// After parsing: defaults, then the file, then the options. Throws Error (usage or unreadable).
   Settings resolve() const;

@@ -14,6 +14,7 @@
 #include <nlohmann/json.hpp>
 #include <opencv2/core.hpp>
 
+#include "app/command.hpp"
 #include "app/fixations_json.hpp"
 #include "app/frame_writer.hpp"
 #include "app/interrupt.hpp"
@@ -43,14 +44,6 @@ std::optional<std::int64_t> expected_frames(const SourceInfo& source, const Sett
   return expected;
 }
 
-void make_folder(const fs::path& folder) {
-  std::error_code code;
-  fs::create_directories(folder, code);
-  if (code || !fs::is_directory(folder))
-    throw failed("cannot make the output folder" + (code ? ": " + code.message() : std::string()),
-                 folder.string(), "choose a folder that can be written with --out");
-}
-
 // One `saccade run`, from open source to manifest.
 class Run {
  public:
@@ -66,9 +59,9 @@ class Run {
     auto source = open_source(uri);
     report_.source = source->info();
     check_levels(report_.source.size, Symmetry3dParams::from(report_.settings));
-    check_start();
+    check_start(report_.source, report_.settings);
     auto processor = make_processor(report_.settings);
-    make_folder(folder_);
+    make_output_folder(folder_);
     write_manifest();
     try {
       process(std::move(source), std::move(processor));
@@ -105,7 +98,7 @@ class Run {
     });
     try {
       while (ResultHandle result = pipeline.next()) {
-        tell_notes();
+        if (!std::exchange(notes_told_, true)) tell_notes(report_.source, report_.settings);
         fixations.append(fixations_json(*result));
         report_.stages.add(result->times);
         writer.submit(std::move(result));
@@ -132,29 +125,12 @@ class Run {
     report_.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   }
 
-  // With the first result: a run that gives none says in one line why, and nothing else.
-  void tell_notes() {
-    if (std::exchange(notes_told_, true)) return;
-    for (const std::string& note : report_.source.notes) spdlog::warn("{}: {}", report_.source.uri, note);
-    const Intrinsics& camera = report_.source.intrinsics;
-    if (!report_.settings.intrinsics && camera.origin == IntrinsicsOrigin::guess)
-      spdlog::warn("{}: no calibration, guessing fx={} fy={} cx={} cy={} (give --intrinsics fx,fy,cx,cy)",
-                   report_.source.uri, camera.fx, camera.fy, camera.cx, camera.cy);
-  }
-
   void tell_rejected() const {
     if (report_.rejected.empty()) return;
     const auto& [index, reason] = report_.rejected.front();
     spdlog::warn("{}: {} frame{} rejected (manifest.json lists them), the first, frame {}: {}",
                  report_.source.uri, report_.rejected.size(), report_.rejected.size() == 1 ? "" : "s", index,
                  reason);
-  }
-
-  void check_start() const {
-    const auto& count = report_.source.frame_count;
-    if (count && report_.settings.start >= *count)
-      throw usage_error(fmt::format("--start {} is behind the last frame", report_.settings.start),
-                        report_.source.uri, fmt::format("it has {} frames, counted from 0", *count));
   }
 
   void check_any_processed() const {
@@ -217,7 +193,8 @@ class Run {
 
   fs::path folder_;
   RunReport report_;
-  bool notes_told_ = false;
+  bool notes_told_ =
+      false;  // with the first result: a run that gives none says in one line why, and nothing else
   std::mutex mutex_;
   Pipeline* pipeline_ = nullptr;  // guarded by mutex_
   bool stopped_ = false;          // guarded by mutex_
@@ -246,7 +223,7 @@ void add_run_command(CLI::App& app, std::function<void()>& action, std::vector<s
   command.callback([arguments, options, &action] {
     action = [arguments, options] {
       const Settings settings = options->resolve();
-      spdlog::set_level(settings.quiet ? spdlog::level::warn : spdlog::level::from_str(settings.log_level));
+      set_log_level(settings);
       run(*arguments, settings);
     };
   });

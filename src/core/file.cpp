@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
@@ -67,9 +68,11 @@ void write_file(const std::filesystem::path& path, std::string_view text) {
   }
 }
 
-LineFile::LineFile(const std::filesystem::path& path)
-    : path_(path), descriptor_(::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666)) {
+LineFile::LineFile(const std::filesystem::path& path, Existing existing) : path_(path) {
+  const int emptied = existing == Existing::replace ? O_TRUNC : 0;
+  descriptor_ = ::open(path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC | emptied, 0666);
   if (descriptor_ < 0) throw write_error(path_, errno);
+  size_ = std::max<std::int64_t>(0, ::lseek(descriptor_, 0, SEEK_END));  // a device has no end
 }
 
 LineFile::~LineFile() { ::close(descriptor_); }

@@ -21,8 +21,10 @@ void write_file(const std::filesystem::path& path, std::string_view text);
 /// whole.
 class LineFile {
  public:
-  /// Creates or empties the file. Throws Error (failed).
-  explicit LineFile(const std::filesystem::path& path);
+  enum class Existing { replace, keep };
+
+  /// Creates the file; one that exists is emptied, or appended to. Throws Error (failed).
+  explicit LineFile(const std::filesystem::path& path, Existing existing = Existing::replace);
   ~LineFile();
   LineFile(const LineFile&) = delete;
   LineFile& operator=(const LineFile&) = delete;

@@ -55,6 +55,14 @@ TEST_F(FileTest, LinesAreThereAsSoonAsTheyAreAppended) {
   EXPECT_EQ(content(folder_ / "l"), "one\ntwo\n");
 }
 
+TEST_F(FileTest, LinesAreAppendedToWhatIsKept) {
+  LineFile(folder_ / "l").append("one");
+  LineFile(folder_ / "l", LineFile::Existing::keep).append("two");
+  EXPECT_EQ(content(folder_ / "l"), "one\ntwo\n");
+  LineFile(folder_ / "l").append("three");
+  EXPECT_EQ(content(folder_ / "l"), "three\n");
+}
+
 TEST_F(FileTest, MissingAndTooLargeFilesAreUnreadable) {
   EXPECT_THROW(read_file(folder_ / "none"), Error);
   write_file(folder_ / "a", std::string_view("12345"));

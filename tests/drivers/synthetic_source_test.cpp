@@ -69,7 +69,7 @@ TEST(SyntheticSpec, NamesWhatIsWrongAndWhatIsKnown) {
       {"synthetic:", "unknown scene ''", "cone, cube, cylinder, sphere, table, room"},
       {"synthetic:kitchen?seed=1", "unknown scene 'kitchen'", "cone, cube, cylinder, sphere, table, room"},
       {"synthetic:table?sed=1", "unknown key 'sed'",
-       "seed, noise, frames, size, camera, rate, objects, distance"},
+       "seed, noise, frames, scenes, size, camera, rate, objects, distance"},
       {"synthetic:table?", "unknown key ''", "known keys"},
       {"synthetic:table?seed=1&", "unknown key ''", "known keys"},
       {"synthetic:table?seed=1&seed=1", "'seed' is given twice", "once"},
@@ -80,6 +80,7 @@ TEST(SyntheticSpec, NamesWhatIsWrongAndWhatIsKnown) {
       {"synthetic:table?noise=much", "'much'", "none or kinect"},
       {"synthetic:table?frames=0", "'0'", "1..1000000"},
       {"synthetic:table?frames=1000001", "'1000001'", "1..1000000"},
+      {"synthetic:table?scenes=0", "'0'", "1..1000000"},
       {"synthetic:table?size=640", "'640'", "640x480"},
       {"synthetic:table?size=640x", "'640x'", "640x480"},
       {"synthetic:table?size=0x480", "'0x480'", "1..8192"},
@@ -162,6 +163,14 @@ TEST(SyntheticSource, TheSameSpecificationGivesTheSameBitsInAnyOrder) {
 TEST(SyntheticSource, AStillCameraWithoutNoiseSeesTheSameAlways) {
   const std::string uri = "synthetic:table?size=160x120";
   expect_same_pixels(frame_of(uri, 0), frame_of(uri, 89));
+}
+
+TEST(SyntheticSource, ScenesAreThoseOfTheNextSeeds) {
+  const std::string uri = "synthetic:table?size=160x120&seed=5&scenes=3";
+  SyntheticSource source(uri);
+  for (const char* seed : {"5", "6", "7", "5"})
+    expect_same_pixels(next(source), frame_of(std::string("synthetic:table?size=160x120&seed=") + seed, 0));
+  expect_same_pixels(frame_of(uri, 2), frame_of("synthetic:table?size=160x120&seed=7", 0));
 }
 
 TEST(SyntheticSource, NoiseTouchesDepthAloneAndGroundTruthStaysExact) {

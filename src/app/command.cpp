@@ -1,0 +1,37 @@
+#include "app/command.hpp"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include "core/error.hpp"
+
+namespace saccade {
+namespace fs = std::filesystem;
+
+void set_log_level(const Settings& settings) {
+  spdlog::set_level(settings.quiet ? spdlog::level::warn : spdlog::level::from_str(settings.log_level));
+}
+
+void tell_notes(const SourceInfo& source, const Settings& settings) {
+  for (const std::string& note : source.notes) spdlog::warn("{}: {}", source.uri, note);
+  const Intrinsics& camera = source.intrinsics;
+  if (!settings.intrinsics && camera.origin == IntrinsicsOrigin::guess)
+    spdlog::warn("{}: no calibration, guessing fx={} fy={} cx={} cy={} (give --intrinsics fx,fy,cx,cy)",
+                 source.uri, camera.fx, camera.fy, camera.cx, camera.cy);
+}
+
+void check_start(const SourceInfo& source, const Settings& settings) {
+  if (source.frame_count && settings.start >= *source.frame_count)
+    throw usage_error(fmt::format("--start {} is behind the last frame", settings.start), source.uri,
+                      fmt::format("it has {} frames, counted from 0", *source.frame_count));
+}
+
+void make_output_folder(const fs::path& folder) {
+  std::error_code code;
+  fs::create_directories(folder, code);
+  if (code || !fs::is_directory(folder))
+    throw failed("cannot make the output folder" + (code ? ": " + code.message() : std::string()),
+                 folder.string(), "choose a folder that can be written with --out");
+}
+
+}  // namespace saccade

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <filesystem>
+
+#include "core/settings.hpp"
+#include "pipeline/frame_source.hpp"
+
+namespace saccade {
+
+/// Sets what is logged: settings.log_level, or warnings and errors only if it is to be quiet.
+void set_log_level(const Settings& settings);
+
+/// Warns of what the user should know of a source: its notes, and a camera that is guessed.
+void tell_notes(const SourceInfo& source, const Settings& settings);
+
+/// Throws Error (usage) if `settings.start` is behind the last frame of the source.
+void check_start(const SourceInfo& source, const Settings& settings);
+
+/// Makes the folder of --out if it is not there. Throws Error (failed).
+void make_output_folder(const std::filesystem::path& folder);
+
+}  // namespace saccade

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "eval/evaluator.hpp"
+#include "pipeline/frame_source.hpp"
+
+namespace saccade {
+
+/// An image that a model did well or badly on.
+struct Example {
+  std::size_t condition = 0;  ///< of EvalPlan::conditions()
+  const ImageResult* image = nullptr;
+  double share = 0;  ///< mean of HR_n / bound_n over n = 1..10, as far as n goes
+  bool best = false;
+  std::string file;  ///< of its picture, within the output folder
+};
+
+/// For each model, under the kernel and selector that suit it best, the four best and four worst images with
+/// objects (fewer if there are fewer images), best first; ties by the order of the images. The examples point
+/// into `images`.
+std::vector<Example> choose_examples(const EvalPlan& plan, const std::vector<ImageResult>& images);
+
+/// The frame's colour image with the map, the numbered points and, outlined, the labelled objects: those that
+/// a point hit, and those that none hit. At most 480 pixels wide. BGR.
+cv::Mat3b draw_example(const Frame& frame, const Look& look, const std::vector<EvalPoint>& points);
+
+/// Computes the examples' maps again and writes their pictures as JPEG below `folder`; stops between two of
+/// them when `stop` says so. Throws Error.
+void write_examples(const std::vector<Example>& examples, const EvalPlan& plan, FrameSource& source,
+                    WorkerPool& pool, const std::filesystem::path& folder, const std::function<bool()>& stop);
+
+}  // namespace saccade

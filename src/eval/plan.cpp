@@ -1,0 +1,142 @@
+#include "eval/plan.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "core/error.hpp"
+#include "core/version.hpp"
+
+namespace saccade {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr int kFormat = 1;  // of results.jsonl
+constexpr int kMostShards = 100'000;
+
+// Settings that a plan names itself, and those that change no result.
+constexpr std::array<std::string_view, 9> kNotInPlan = {"model", "kernel", "selector", "fixations", "workers",
+                                                        "dump",  "json",   "quiet",    "log-level"};
+
+std::vector<std::string> split(const std::string& list) {
+  std::vector<std::string> parts(1);
+  for (const char c : list)
+    if (c == ',')
+      parts.emplace_back();
+    else
+      parts.back() += c;
+  return parts;
+}
+
+std::string setting(const Settings& settings, std::string_view key) {
+  const auto specs = setting_specs();
+  return std::find_if(specs.begin(), specs.end(), [&](const auto& spec) { return spec.key == key; })
+      ->print(settings);
+}
+
+// Reads each word of the list with the setting's own parser; `take` gets the settings that hold it.
+template <typename Take>
+void parse_list(const EvalPlan& plan, const std::string& key, const std::string& list, Take take) {
+  const auto words = split(list.empty() ? setting(plan.settings, key) : list);
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    if (std::find(words.begin(), words.begin() + static_cast<std::ptrdiff_t>(i), words[i]) !=
+        words.begin() + static_cast<std::ptrdiff_t>(i))
+      throw usage_error(fmt::format("'{}' is named twice", words[i]), fmt::format("--{}s", key),
+                        "name it once");
+    Settings settings;
+    apply_setting(settings, key, words[i]);
+    take(settings);
+  }
+}
+
+}  // namespace
+
+std::string to_string(Selector selector) {
+  Settings settings;
+  settings.selector = selector;
+  return setting(settings, "selector");
+}
+
+std::string describe(const Condition& condition) {
+  return fmt::format("{}, k = {}, {}", condition.model, condition.kernel, to_string(condition.selector));
+}
+
+std::vector<Condition> EvalPlan::conditions() const {
+  std::vector<Condition> all;
+  for (const std::string& model : models)
+    for (const int kernel : kernels)
+      for (const Selector selector : selectors) all.push_back({model, kernel, selector});
+  return all;
+}
+
+Settings EvalPlan::settings_of(const Condition& condition) const {
+  Settings s = settings;
+  s.model = condition.model;
+  s.kernel = condition.kernel;
+  s.selector = condition.selector;
+  s.fixations = points;
+  return s;
+}
+
+void parse_lists(EvalPlan& plan, const std::string& models, const std::string& kernels,
+                 const std::string& selectors) {
+  parse_list(plan, "model", models, [&](const Settings& s) { plan.models.push_back(s.model); });
+  parse_list(plan, "kernel", kernels, [&](const Settings& s) { plan.kernels.push_back(s.kernel); });
+  parse_list(plan, "selector", selectors, [&](const Settings& s) { plan.selectors.push_back(s.selector); });
+}
+
+void parse_shard(EvalPlan& plan, const std::string& text) {
+  const char* end = text.data() + text.size();
+  const auto [slash, first] = std::from_chars(text.data(), end, plan.shard);
+  const bool divided = first == std::errc{} && slash != end && *slash == '/';
+  const auto [stop, second] =
+      divided ? std::from_chars(slash + 1, end, plan.shards) : std::from_chars_result{slash, std::errc{}};
+  if (!divided || second != std::errc{} || stop != end || plan.shard < 1 || plan.shard > plan.shards ||
+      plan.shards > kMostShards)
+    throw usage_error("bad value for shard", fmt::format("'{}'", text),
+                      fmt::format("expected i/n with 1 <= i <= n <= {}, e.g. 3/8", kMostShards));
+}
+
+Json plan_json(const EvalPlan& plan) {
+  Json settings = Json::object(), selectors = Json::array();
+  for (const SettingSpec& spec : setting_specs())
+    if (std::find(kNotInPlan.begin(), kNotInPlan.end(), spec.key) == kNotInPlan.end())
+      settings[std::string(spec.key)] = spec.print(plan.settings);
+  for (const Selector selector : plan.selectors) selectors.push_back(to_string(selector));
+  return {{"format", kFormat},        {"version", kVersion},   {"dataset", plan.dataset},
+          {"frames", plan.positions}, {"models", plan.models}, {"kernels", plan.kernels},
+          {"selectors", selectors},   {"points", plan.points}, {"settings", settings},
+          {"shard", plan.shard},      {"shards", plan.shards}};
+}
+
+std::string dump(const Json& json, int indent) {
+  return json.dump(indent, ' ', false, Json::error_handler_t::replace);
+}
+
+EvalPlan plan_from_json(const Json& json) {
+  if (json.at("format") != kFormat) throw usage_error("results of another version", "", "evaluate again");
+  EvalPlan plan;
+  plan.dataset = json.at("dataset");
+  plan.positions = json.at("frames");
+  plan.points = json.at("points");
+  plan.shard = json.at("shard");
+  plan.shards = json.at("shards");
+  if (plan.points < 1 || plan.points > kMostPoints || plan.shard < 1 || plan.shards < plan.shard ||
+      plan.shards > kMostShards)
+    throw usage_error("points or shard out of range", "", "evaluate again");
+  const auto list = [&](const char* key) {
+    std::string words;
+    for (const auto& word : json.at(key))
+      words += (words.empty() ? "" : ",") + (word.is_string() ? word.get<std::string>() : word.dump());
+    return words;
+  };
+  parse_lists(plan, list("models"), list("kernels"), list("selectors"));
+  for (const auto& [key, value] : json.at("settings").items()) apply_setting(plan.settings, key, value);
+  return plan;
+}
+
+}  // namespace saccade

@@ -1,0 +1,189 @@
+#include "eval/result_file.hpp"
+
+#include <algorithm>
+#include <set>
+#include <string_view>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "core/error.hpp"
+#include "core/file.hpp"
+
+namespace saccade {
+namespace fs = std::filesystem;
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::uintmax_t kLargestFile = std::uintmax_t{8} << 30;
+
+Json condition_json(const ConditionResult& condition) {
+  Json points = Json::array();
+  for (const EvalPoint& p : condition.points) points.push_back({p.row, p.col, p.label});
+  return {{"points", points}, {"map_ms", condition.map_ms}, {"select_ms", condition.select_ms}};
+}
+
+ConditionResult condition_from(const Json& json) {
+  ConditionResult condition{{}, json.at("map_ms"), json.at("select_ms")};
+  for (const auto& p : json.at("points")) condition.points.push_back({p.at(0), p.at(1), p.at(2)});
+  return condition;
+}
+
+ImageResult image_from(const Json& json, const EvalPlan& plan) {
+  ImageResult image;
+  image.frame = json.at("frame");
+  image.name = json.at("name");
+  if (json.contains("left_out")) {
+    image.left_out = json.at("left_out");
+    return image;
+  }
+  image.objects = json.at("objects");
+  image.random = json.at("random").get<std::vector<double>>();
+  image.centre = json.at("centre").get<std::vector<double>>();
+  for (const auto& condition : json.at("conditions")) image.conditions.push_back(condition_from(condition));
+  const auto points = static_cast<std::size_t>(plan.points);
+  if (image.random.size() != points || image.centre.size() != points ||
+      image.conditions.size() != plan.conditions().size())
+    throw std::runtime_error("not the numbers of points and conditions of the first line");
+  return image;
+}
+
+struct Lines {
+  std::vector<std::string_view> whole;
+  std::uintmax_t whole_bytes = 0;  // up to the last line feed
+};
+
+Lines split_lines(std::string_view text) {
+  Lines lines;
+  for (std::size_t end; (end = text.find('\n', lines.whole_bytes)) != std::string_view::npos;) {
+    lines.whole.push_back(text.substr(lines.whole_bytes, end - lines.whole_bytes));
+    lines.whole_bytes = end + 1;
+  }
+  return lines;
+}
+
+StoredResults parse_results(const Lines& lines, const fs::path& path) {
+  StoredResults results;
+  std::size_t number = 1;
+  try {
+    if (lines.whole.empty()) throw std::runtime_error("no line with the parameters");
+    for (const std::string_view line : lines.whole) {
+      const Json json = Json::parse(line);
+      if (number == 1)
+        results.plan = plan_from_json(json);
+      else if (json.contains("end"))
+        results.complete = true;
+      else
+        results.images.push_back(image_from(json, results.plan));
+      ++number;
+    }
+  } catch (const std::exception& error) {
+    throw unreadable(fmt::format("not the results of an evaluation: {}", error.what()),
+                     fmt::format("{}:{}", path.string(), number), "remove it to start anew");
+  }
+  return results;
+}
+
+// "kernels is [15], not [10]" for the first difference of two plans; empty if they are the same.
+std::string difference(const Json& stored, const Json& wanted) {
+  for (const auto& [key, value] : wanted.items()) {
+    const auto other = stored.find(key);
+    if (other == stored.end()) return fmt::format("{} is not told", key);
+    if (*other == value) continue;
+    if (value.is_object()) return difference(*other, value);
+    return fmt::format("{} is {}, not {}", key, dump(*other), dump(value));
+  }
+  return "";
+}
+
+std::string read_text(const fs::path& path) {
+  const auto bytes = read_file(path, kLargestFile);
+  return {bytes.begin(), bytes.end()};
+}
+
+void sort_by_frame(std::vector<ImageResult>& images) {
+  std::sort(images.begin(), images.end(), [](const auto& a, const auto& b) { return a.frame < b.frame; });
+}
+
+}  // namespace
+
+std::string plan_line(const EvalPlan& plan) { return dump(plan_json(plan)); }
+
+std::string image_line(const ImageResult& image) {
+  Json json = {{"frame", image.frame}, {"name", image.name}};
+  if (!image.left_out.empty()) {
+    json["left_out"] = image.left_out;
+  } else {
+    json["objects"] = image.objects;
+    json["random"] = image.random;
+    json["centre"] = image.centre;
+    json["conditions"] = Json::array();
+    for (const ConditionResult& condition : image.conditions)
+      json["conditions"].push_back(condition_json(condition));
+  }
+  return dump(json);
+}
+
+std::string end_line() { return Json({{"end", true}}).dump(); }
+
+StoredResults read_results(const fs::path& folder) {
+  const fs::path path = folder / kResultFile;
+  const std::string text = read_text(path);
+  return parse_results(split_lines(text), path);
+}
+
+StoredResults resume_results(const fs::path& folder, const EvalPlan& plan) {
+  const fs::path path = folder / kResultFile;
+  std::string text;
+  if (fs::exists(path)) text = read_text(path);
+  const Lines lines = split_lines(text);
+  if (lines.whole.empty()) {
+    LineFile(path).append(plan_line(plan));
+    return {plan, {}, false};
+  }
+  StoredResults results = parse_results(lines, path);
+  if (const std::string other = difference(plan_json(results.plan), plan_json(plan)); !other.empty())
+    throw usage_error("there are results of another evaluation: " + other, path.string(),
+                      "choose another --out, or remove the file");
+  if (lines.whole_bytes < text.size()) fs::resize_file(path, lines.whole_bytes);
+  return results;
+}
+
+StoredResults merge_results(const std::vector<fs::path>& folders) {
+  if (folders.empty()) throw std::invalid_argument("merge_results: no folders");
+  StoredResults merged;
+  std::set<int> seen;
+  for (const fs::path& folder : folders) {
+    StoredResults part = read_results(folder);
+    const int shard = part.plan.shard;
+    if (!part.complete)
+      throw usage_error(fmt::format("shard {}/{} is not complete", shard, part.plan.shards), folder.string(),
+                        "run its evaluation again to go on with it");
+    if (!seen.insert(shard).second)
+      throw usage_error(fmt::format("shard {}/{} is given twice", shard, part.plan.shards), folder.string(),
+                        "name each shard's folder once");
+    part.plan.shard = 1;
+    if (seen.size() == 1) merged.plan = part.plan;
+    if (const std::string other = difference(plan_json(merged.plan), plan_json(part.plan)); !other.empty())
+      throw usage_error("the shards are of different evaluations: " + other, folder.string(),
+                        "merge shards of one evaluation only");
+    std::move(part.images.begin(), part.images.end(), std::back_inserter(merged.images));
+  }
+  for (int shard = 1; shard <= merged.plan.shards; ++shard)
+    if (!seen.contains(shard))
+      throw usage_error(fmt::format("shard {}/{} is missing", shard, merged.plan.shards),
+                        folders.front().string(), "name the folders of all shards");
+  merged.plan.shards = 1;
+  merged.complete = true;
+  sort_by_frame(merged.images);
+  return merged;
+}
+
+void write_results(const fs::path& folder, const StoredResults& results) {
+  std::string text = plan_line(results.plan) + "\n";
+  for (const ImageResult& image : results.images) text += image_line(image) + "\n";
+  write_file(folder / kResultFile, text + end_line() + "\n");
+}
+
+}  // namespace saccade

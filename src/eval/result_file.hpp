@@ -1,0 +1,43 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "eval/evaluator.hpp"
+#include "eval/plan.hpp"
+
+namespace saccade {
+
+inline constexpr const char* kResultFile = "results.jsonl";
+
+/// What is in a results.jsonl: a line with the plan, a line for each image, and a last line once all images
+/// of the shard are there.
+struct StoredResults {
+  EvalPlan plan;
+  std::vector<ImageResult> images;  ///< in the order of the lines
+  bool complete = false;
+};
+
+/// The lines of results.jsonl, without line feeds.
+std::string plan_line(const EvalPlan& plan);
+std::string image_line(const ImageResult& image);
+std::string end_line();
+
+/// Reads `folder`/results.jsonl. A last line that was cut while it was written is not looked at.
+/// Throws Error (unreadable) naming the file and line if it cannot be read.
+StoredResults read_results(const std::filesystem::path& folder);
+
+/// What an interrupted evaluation of `plan` left in `folder`; a cut last line is taken off the file, so that
+/// lines can be appended. Without a file there, writes a new one that holds only the plan. Throws Error
+/// (usage), naming what differs, if the file belongs to another plan.
+StoredResults resume_results(const std::filesystem::path& folder, const EvalPlan& plan);
+
+/// The results of all shards as those of one run, images in the order of their frames. Throws Error (usage)
+/// if the folders hold different plans, if a shard is missing or given twice, or if one is not complete.
+StoredResults merge_results(const std::vector<std::filesystem::path>& folders);
+
+/// Writes results.jsonl of a complete evaluation, whole or not at all. Throws Error (failed).
+void write_results(const std::filesystem::path& folder, const StoredResults& results);
+
+}  // namespace saccade

@@ -1,0 +1,212 @@
+// `saccade eval` as a user starts it.
+
+#include <algorithm>
+#include <sstream>
+
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+#include <opencv2/imgcodecs.hpp>
+
+#include "core/file.hpp"
+#include "core/png.hpp"
+#include "subprocess.hpp"
+
+namespace saccade {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using ::testing::HasSubstr;
+
+constexpr int kFailed = 1, kUsage = 2, kUnreadable = 3;
+const std::string kScenes = "synthetic:table?seed=3&noise=kinect&size=160x120&frames=7&scenes=7";
+
+class EvalTest : public ProgramTest {
+ protected:
+  static std::vector<std::string> command(const std::string& source, const std::string& out,
+                                          const std::vector<std::string>& more = {}) {
+    std::vector<std::string> arguments = {"eval", source, "--out", out};
+    const std::vector<std::pair<std::string, std::string>> usual = {
+        {"--levels", "0..2"}, {"--kernels", "9,15"}, {"--selectors", "proto,wta"}, {"--points", "6"}};
+    for (const auto& [option, value] : usual)
+      if (std::find(more.begin(), more.end(), option) == more.end())
+        arguments.insert(arguments.end(), {option, value});
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return arguments;
+  }
+
+  Outcome eval(const std::string& out, const std::vector<std::string>& more = {},
+               const std::string& source = kScenes) const {
+    return run_saccade(command(source, in(out), more));
+  }
+
+  void expect_error(int status, const std::string& part, const std::vector<std::string>& arguments) const {
+    const Outcome outcome = run_saccade(arguments);
+    EXPECT_EQ(outcome.status, status) << outcome.err;
+    EXPECT_TRUE(outcome.one_error_line());
+    EXPECT_THAT(outcome.err, HasSubstr(part));
+  }
+
+  // The report without what depends on how busy the machine was.
+  json report(const std::string& out) const {
+    json all = json::parse(text(out + "/report.json"));
+    for (json& condition : all["conditions"]) condition.erase("times_ms");
+    return all;
+  }
+
+  void expect_same(const std::string& a, const std::string& b) const {
+    for (const char* name : {"hr.csv", "hr.svg", "hr.png", "index.html"})
+      EXPECT_TRUE(text(a + "/" + name) == text(b + "/" + name)) << name;
+    EXPECT_EQ(report(a), report(b));
+    int pictures = 0;
+    for (const auto& file : fs::directory_iterator(folder_ / a / "examples")) {
+      const std::string name = "/examples/" + file.path().filename().string();
+      EXPECT_TRUE(text(a + name) == text(b + name)) << name;
+      ++pictures;
+    }
+    EXPECT_GT(pictures, 0);
+  }
+
+  std::vector<std::string> lines(const std::string& name) const {
+    std::istringstream stream(text(name));
+    std::vector<std::string> all;
+    for (std::string line; std::getline(stream, line);) all.push_back(line);
+    return all;
+  }
+
+  void put(const std::string& name, const cv::Mat& image) const {
+    fs::create_directories(folder_ / "data");
+    write_file(folder_ / "data" / name, encode_png(image));
+  }
+};
+
+TEST_F(EvalTest, WritesAllFiles) {
+  const Outcome outcome = eval("out");
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("symmetry3d, k = 15, wta"));
+  EXPECT_THAT(outcome.out, HasSubstr("7 images"));
+  EXPECT_EQ(lines("out/hr.csv").size(), 1 + 7 * 4 * 6U);
+  const json all = report("out");
+  EXPECT_EQ(all["images"], 7);
+  EXPECT_EQ(all["conditions"].size(), 4U);
+  EXPECT_GT(all["conditions"][2]["hr"][0]["mean"], all["baselines"]["random"][0]["mean"]);
+  EXPECT_LE(all["conditions"][2]["hr"][5]["mean"], all["bound"][5]["mean"]);
+  const cv::Mat figure = cv::imread(in("out/hr.png"));
+  EXPECT_GT(figure.cols, 1000);
+  EXPECT_THAT(text("out/hr.svg"), HasSubstr("</svg>"));
+  const std::string page = text("out/index.html");
+  for (const auto& file : fs::directory_iterator(folder_ / "out/examples"))
+    EXPECT_THAT(page, HasSubstr("examples/" + file.path().filename().string()));
+}
+
+TEST_F(EvalTest, WorkersDoNotChangeResults) {
+  EXPECT_EQ(eval("one", {"--workers", "1"}).status, 0);
+  EXPECT_EQ(eval("three", {"--workers", "3"}).status, 0);
+  expect_same("one", "three");
+}
+
+TEST_F(EvalTest, GoesOnAfterACut) {
+  ASSERT_EQ(eval("whole").status, 0);
+  const auto all = lines("whole/results.jsonl");
+  ASSERT_EQ(all.size(), 9U) << "plan, 7 images, end";
+  fs::create_directories(folder_ / "cut");
+  write_file(folder_ / "cut/results.jsonl",
+             all[0] + "\n" + all[1] + "\n" + all[2] + "\n" + all[3].substr(0, all[3].size() / 2));
+  const Outcome outcome = eval("cut");
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_THAT(outcome.err, HasSubstr("2 images are there already"));
+  EXPECT_EQ(lines("cut/results.jsonl")[2], all[2]) << "not evaluated again";
+  expect_same("whole", "cut");
+}
+
+TEST_F(EvalTest, GoesOnAfterAnInterruption) {
+  const std::string many = "synthetic:table?seed=3&size=160x120&frames=120&camera=orbit&rate=3";
+  const Outcome stopped = run_saccade(command(many, in("stopped")), 0, folder_ / "stopped/results.jsonl");
+  EXPECT_EQ(stopped.status, kFailed);
+  EXPECT_THAT(stopped.err, HasSubstr("interrupted"));
+  EXPECT_FALSE(fs::exists(folder_ / "stopped/report.json"));
+  EXPECT_EQ(eval("stopped", {}, many).status, 0);
+  EXPECT_EQ(eval("whole", {}, many).status, 0);
+  expect_same("whole", "stopped");
+}
+
+TEST_F(EvalTest, MergedShardsAreTheWhole) {
+  ASSERT_EQ(eval("whole").status, 0);
+  for (const char* i : {"1", "2", "3"})
+    ASSERT_EQ(eval(std::string("part") + i, {"--shard", std::string(i) + "/3"}).status, 0);
+  EXPECT_EQ(report("part1")["images"], 3);
+  EXPECT_EQ(report("part3")["shard"], "3/3");
+  const Outcome outcome = run_saccade(
+      {"eval", "--merge", in("part3"), in("part1"), in("part2"), "--out", in("merged"), "--quiet"});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(outcome.out, "");
+  expect_same("whole", "merged");
+  expect_error(kUsage, "2/3 is missing",
+               {"eval", "--merge", in("part3"), in("part1"), "--out", in("merged")});
+}
+
+TEST_F(EvalTest, FramesWhoseLabelsDoNotFitAreNamedAndLeftOut) {
+  cv::Mat1w depth(120, 160, std::uint16_t{1000});
+  depth(cv::Rect(60, 40, 30, 30)).setTo(900);
+  cv::Mat1b labels(120, 160, std::uint8_t{0});
+  labels(cv::Rect(60, 40, 30, 30)).setTo(1);
+  for (const char* name : {"0000", "0001", "0002"}) put(std::string(name) + "_depth.png", depth);
+  put("0000_label.png", labels);
+  put("0001_label.png", labels(cv::Rect(0, 0, 80, 60)));
+  const Outcome outcome = eval("out", {}, in("data"));
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_THAT(outcome.err, HasSubstr("frame 1 (0001) left out: 0001_label.png: 80x60"));
+  EXPECT_THAT(outcome.err, HasSubstr("frame 2 (0002) left out: it has no label image"));
+  const json all = report("out");
+  EXPECT_EQ(all["images"], 1);
+  ASSERT_EQ(all["left_out"].size(), 2U);
+  EXPECT_EQ(all["left_out"][0]["name"], "0001");
+}
+
+TEST_F(EvalTest, SelectsFramesAndPrintsJson) {
+  const Outcome outcome = eval("out", {"--start", "1", "--every", "2", "--frames", "2", "--json"});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  const json summary = json::parse(outcome.out);
+  EXPECT_EQ(summary["images"], 2);
+  EXPECT_EQ(summary["out"], in("out"));
+  EXPECT_THAT(lines("out/hr.csv")[1], ::testing::StartsWith("1,"));
+  EXPECT_THAT(lines("out/hr.csv").back(), ::testing::StartsWith("3,"));
+}
+
+TEST_F(EvalTest, Errors) {
+  const std::string out = in("out");
+  expect_error(kUsage, "no data set", {"eval", "--out", out});
+  expect_error(kUsage, "--out", {"eval", kScenes});
+  expect_error(kUsage, "3..127", command(kScenes, out, {"--kernels", "200"}));
+  expect_error(kUsage, "symmetry3d", command(kScenes, out, {"--models", "nonsense"}));
+  expect_error(kUsage, "i/n", command(kScenes, out, {"--shard", "4/3"}));
+  expect_error(kUsage, "shard 8 holds no frame", command(kScenes, out, {"--shard", "8/9"}));
+  expect_error(kUsage, "--start 7", command(kScenes, out, {"--start", "7"}));
+  expect_error(kUsage, "points", command(kScenes, out, {"--points", "0"}));
+  expect_error(kUsage, "--merge", command(kScenes, out, {"--merge", out}));
+  expect_error(kUsage, "level 5", command(kScenes, out, {"--levels", "0..5"}));
+  EXPECT_FALSE(fs::exists(folder_ / "out")) << "nothing is made before the command line is right";
+  expect_error(kUnreadable, "no such source", command(in("nowhere"), out));
+  expect_error(kUnreadable, "results.jsonl", {"eval", "--merge", in("nowhere"), "--out", out});
+  write_file(folder_ / "file", std::string_view("x"));
+  expect_error(kFailed, "file", command(kScenes, in("file")));
+  EXPECT_EQ(eval("out").status, 0);
+  expect_error(kUsage, "points is 6, not 7", command(kScenes, out, {"--points", "7"}));
+}
+
+TEST_F(EvalTest, NoLabelsAtAll) {
+  put("0000_depth.png", cv::Mat1w(120, 160, std::uint16_t{1000}));
+  const Outcome outcome = eval("out", {"--log-level", "error"}, in("data"));
+  EXPECT_EQ(outcome.status, kUnreadable);
+  EXPECT_THAT(outcome.err, HasSubstr("none of 1 images could be evaluated; the first: it has no label"));
+  EXPECT_TRUE(outcome.one_error_line());
+}
+
+TEST_F(EvalTest, AFullDiskIsAFailure) {
+  fs::create_directories(folder_ / "out");
+  fs::create_symlink("/dev/full", folder_ / "out/hr.csv");
+  expect_error(kFailed, "No space left", command(kScenes, in("out"), {"--frames", "1", "--quiet"}));
+}
+
+}  // namespace
+}  // namespace saccade

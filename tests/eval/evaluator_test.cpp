@@ -1,0 +1,71 @@
+#include "eval/evaluator.hpp"
+
+#include <gtest/gtest.h>
+
+#include "drivers/synthetic_source.hpp"
+#include "eval/hit_ratio.hpp"
+#include "saliency/symmetry3d.hpp"
+
+namespace saccade {
+namespace {
+
+Frame table_frame() {
+  SyntheticSource source("synthetic:table?noise=kinect&size=160x120&seed=2");
+  Frame frame;
+  source.read(frame, std::chrono::milliseconds(0));
+  return frame;
+}
+
+EvalPlan small_plan() {
+  EvalPlan plan;
+  plan.settings.last_level = 2;
+  plan.points = 5;
+  parse_lists(plan, "symmetry3d", "9,15", "proto,wta");
+  return plan;
+}
+
+// Each condition computed by itself, with objects made for it.
+TEST(Evaluator, PointsAreThoseOfModelAndSelector) {
+  const Frame frame = table_frame();
+  const EvalPlan plan = small_plan();
+  WorkerPool pool(1);
+  Evaluator evaluator(plan, pool);
+  const ImageResult result = evaluator.evaluate(frame);
+  EXPECT_EQ(result.left_out, "");
+  EXPECT_EQ(result.objects, static_cast<int>(object_areas(frame.truth.labels).size()));
+  EXPECT_EQ(result.random, random_hit_ratio(frame.truth.labels, 5));
+  const auto conditions = plan.conditions();
+  ASSERT_EQ(result.conditions.size(), conditions.size());
+  for (std::size_t i = 0; i < conditions.size(); ++i) {
+    SCOPED_TRACE(describe(conditions[i]));
+    const Settings settings = plan.settings_of(conditions[i]);
+    Symmetry3d model(Symmetry3dParams::from(settings), pool);
+    SaliencyMaps maps;
+    StageTimes times;
+    Attention attention;
+    model.compute(frame.depth_mm, frame.intrinsics, {}, maps, times);
+    make_selector(settings)->select(maps.master, frame.depth_mm, frame.intrinsics, attention);
+    const auto& points = result.conditions[i].points;
+    ASSERT_EQ(points.size(), attention.fixations.size());
+    ASSERT_FALSE(points.empty());
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      EXPECT_EQ(points[k].row, attention.fixations[k].row);
+      EXPECT_EQ(points[k].col, attention.fixations[k].col);
+      EXPECT_EQ(points[k].label, frame.truth.labels(points[k].row, points[k].col));
+    }
+    EXPECT_EQ(evaluator.look(frame, i).attention.fixations.size(), points.size());
+  }
+}
+
+TEST(Evaluator, AFrameWithoutLabelsIsLeftOut) {
+  Frame frame = table_frame();
+  frame.truth.labels.release();
+  WorkerPool pool(1);
+  const EvalPlan plan = small_plan();
+  const ImageResult result = Evaluator(plan, pool).evaluate(frame);
+  EXPECT_EQ(result.left_out, "it has no label image");
+  EXPECT_TRUE(result.conditions.empty());
+}
+
+}  // namespace
+}  // namespace saccade
