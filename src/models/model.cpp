@@ -2,6 +2,11 @@
 
 #include <stdexcept>
 
+#include "models/baselines.hpp"
+#include "models/itti.hpp"
+#include "models/radial2d.hpp"
+#include "models/symmetry2d.hpp"
+
 namespace saccade {
 namespace {
 
@@ -21,8 +26,16 @@ class Symmetry3dModel : public SaliencyModel {
 }  // namespace
 
 std::unique_ptr<SaliencyModel> make_model(const Settings& settings, WorkerPool& pool) {
-  if (settings.model == "symmetry3d") return std::make_unique<Symmetry3dModel>(settings, pool);
-  throw std::invalid_argument("make_model: unknown model " + settings.model);
+  const std::string& name = settings.model;
+  if (name == "symmetry3d") return std::make_unique<Symmetry3dModel>(settings, pool);
+  if (name == "symmetry2d") return make_symmetry2d(pool);
+  if (name == "colour_symmetry2d") return make_colour_symmetry2d(pool);
+  if (name == "radial2d") return std::make_unique<Radial2dModel>(pool);
+  if (name == "itti") return std::make_unique<IttiModel>("itti", false, pool);
+  if (name == "itti_orientation") return std::make_unique<IttiModel>("itti_orientation", true, pool);
+  if (name == "random") return std::make_unique<RandomModel>(pool);
+  if (name == "centre") return std::make_unique<CentreModel>(pool);
+  throw std::invalid_argument("make_model: unknown model " + name);
 }
 
 }  // namespace saccade
