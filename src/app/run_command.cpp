@@ -21,6 +21,7 @@
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "drivers/open_source.hpp"
+#include "models/model.hpp"
 #include "pipeline/pipeline.hpp"
 
 namespace saccade {
@@ -63,7 +64,7 @@ class Run {
     auto source = open_source(uri);
     report_.source = source->info();
     tell_notes();
-    check_levels(report_.source.size, Symmetry3dParams::from(report_.settings));
+    check_model(report_.settings, report_.source.size);
     check_start();
     auto processor = make_processor(report_.settings);
     make_folder(folder_);
