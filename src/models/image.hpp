@@ -21,9 +21,9 @@ void for_row_bands(WorkerPool& pool, int rows, Job job) {
   pool.for_each((rows + kRows - 1) / kRows, std::ref(band));
 }
 
-/// Rows begin..end of `fine` get (with `add`: on top of what they hold) `coarse`, which is `levels` >= 0 pyramid
-/// levels above, interpolated bilinearly at (r/2^levels, c/2^levels) and clamped at the border: a level holds
-/// the even pixels of the one below.
+/// Rows begin..end of `fine` get (with `add`: on top of what they hold) `coarse`, which is `levels` >= 0
+/// pyramid levels above, interpolated bilinearly at (r/2^levels, c/2^levels) and clamped at the border: a
+/// level holds the even pixels of the one below.
 void upsample_rows(const cv::Mat1f& coarse, int levels, cv::Mat1f& fine, bool add, int begin, int end);
 
 }  // namespace saccade

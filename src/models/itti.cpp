@@ -13,8 +13,8 @@
 namespace saccade {
 namespace {
 
-// A Gabor pair of one orientation, exp(i (kx x + ky y)) times a Gaussian, as products of functions of x and of
-// y: the cosine of the sum is cos cos - sin sin, its sine sin cos + cos sin.
+// A Gabor pair of one orientation, exp(i (kx x + ky y)) times a Gaussian, as products of functions of x and
+// of y: the cosine of the sum is cos cos - sin sin, its sine sin cos + cos sin.
 struct Gabor {
   static constexpr int kReach = 7;  // 3 sigma
   cv::Mat1f cos_x, sin_x, cos_y, sin_y, gauss;
@@ -77,8 +77,8 @@ void IttiModel::resize(cv::Size size) {
     for (int l = 0; l < kLevels; ++l) channel.levels[static_cast<std::size_t>(l)].create(level_size(size, l));
 }
 
-// The article's equations for R, G, B and Y, of colours divided by the intensity where that is above a tenth of its
-// maximum.
+// The article's equations for R, G, B and Y, of colours divided by the intensity where that is above a tenth
+// of its maximum.
 void IttiModel::split_colours(const cv::Mat3b& colour) {
   cv::Mat1f& intensity = channels_[kIntensity].levels[0];
   for_row_bands(pool_, size_.height, [&](int begin, int end) {
@@ -130,6 +130,7 @@ void IttiModel::compare_levels(ChannelState& state) const {
       difference[at].create(fine.size());
       upsample_rows(coarse, delta, difference[at], false, 0, fine.rows);
       cv::absdiff(fine, difference[at], difference[at]);
+      attenuate_border(difference[at]);
       promote_few_peaks(difference[at]);
       for (std::size_t l = at; l < end; ++l) cv::pyrDown(difference[l], difference[l + 1]);
       state.sum += difference[end];

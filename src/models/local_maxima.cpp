@@ -5,7 +5,8 @@
 namespace saccade {
 namespace {
 
-// No neighbour is higher, and none that comes before it in reading order is as high: a plateau counts about once.
+// No neighbour is higher, and none that comes before it in reading order is as high: a plateau counts about
+// once.
 bool is_peak(const cv::Mat1f& map, int row, int col) {
   const float value = map(row, col);
   for (int r = std::max(0, row - 1); r <= std::min(map.rows - 1, row + 1); ++r)
@@ -17,6 +18,17 @@ bool is_peak(const cv::Mat1f& map, int row, int col) {
 }
 
 }  // namespace
+
+void attenuate_border(cv::Mat1f& map) {
+  const int border = (std::max(map.rows, map.cols) + 10) / 20;
+  const auto share = [&](int i, int n) {
+    return static_cast<float>(std::min({i + 1, n - i, border + 1})) / static_cast<float>(border + 1);
+  };
+  for (int r = 0; r < map.rows; ++r) {
+    const float down = share(r, map.rows);
+    for (int c = 0; c < map.cols; ++c) map(r, c) *= down * share(c, map.cols);
+  }
+}
 
 void promote_few_peaks(cv::Mat1f& map) {
   constexpr float kCounts = 0.1F;

@@ -42,11 +42,12 @@ class PairMeasure {
   virtual int planes() const = 0;
 
   /// Row r of the moments. gx, gy: Sobel gradient (sum of weights 8, image in 0..1), channels interleaved.
-  virtual void set_moments(const float* gx, const float* gy, int width, MomentPlanes& moments, int r) const = 0;
+  virtual void set_moments(const float* gx, const float* gy, int width, MomentPlanes& moments,
+                           int r) const = 0;
 
   /// Adds what the pairs about each pixel of row r contribute.
-  virtual void add_pairs(const MomentPlanes& moments, int r, const std::vector<MirrorPair>& pairs, float* score,
-                         int width) const = 0;
+  virtual void add_pairs(const MomentPlanes& moments, int r, const std::vector<MirrorPair>& pairs,
+                         float* score, int width) const = 0;
 };
 
 /// Symmetry of gradients at pixel pairs on pyramid levels 1..5 of the colour image, brought to full size and
