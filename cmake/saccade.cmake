@@ -13,7 +13,8 @@ target_compile_options(saccade_flags INTERFACE -ffp-contract=off)
 target_include_directories(saccade_flags INTERFACE ${PROJECT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR})
 if(SACCADE_SANITIZE)
   target_compile_options(saccade_flags INTERFACE
-    -fsanitize=${SACCADE_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+    -fsanitize=${SACCADE_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer
+    -Wno-maybe-uninitialized)  # GCC warns falsely in instrumented code
   target_link_options(saccade_flags INTERFACE -fsanitize=${SACCADE_SANITIZE})
 endif()
 

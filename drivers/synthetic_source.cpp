@@ -163,13 +163,21 @@ ReadResult SyntheticSource::read(Frame& frame, std::chrono::milliseconds) {
   frame.timestamp_us = std::llround(static_cast<double>(index) * 1e6 / spec_.rate_hz);
   frame.name.clear();
   frame.intrinsics = info_.intrinsics;
-  view_.colour.copyTo(frame.colour);
-  view_.labels.copyTo(frame.truth.labels);
-  view_.normals.copyTo(frame.truth.normals);
+  // What a still camera sees is rendered once and shared by all frames; a moving one's view_ is rendered over.
+  const bool still = spec_.camera == SyntheticSpec::Camera::still;
+  const auto give = [still](const auto& seen, auto& to) {
+    if (still)
+      to = seen;
+    else
+      seen.copyTo(to);
+  };
+  give(view_.colour, frame.colour);
+  give(view_.labels, frame.truth.labels);
+  give(view_.normals, frame.truth.normals);
   if (spec_.noise == SyntheticSpec::Noise::kinect)
     kinect_.sense(scene::mix(scene::mix(spec_.seed, 2), static_cast<std::uint64_t>(index)), frame.depth_mm);
   else
-    view_.depth_mm.copyTo(frame.depth_mm);
+    give(view_.depth_mm, frame.depth_mm);
   return {ReadStatus::frame, {}};
 }
 

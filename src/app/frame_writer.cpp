@@ -49,6 +49,8 @@ void write_frame(const std::filesystem::path& folder, const Result& result, cons
     write_file(path("masks.png"),
                encode_png(none ? cv::Mat1w(result.frame.size(), std::uint16_t{0}) : result.attention.masks));
   }
+  if (const cv::Mat1w& labels = result.frame.truth.labels; dump.contains("labels") && !labels.empty())
+    write_file(path("labels.png"), encode_png(labels));
   if (dump.contains("overlay"))
     write_file(path("overlay.png"), encode_png(draw_overlay(result.frame, maps.master, result.attention)));
 }

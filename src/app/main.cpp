@@ -1,3 +1,4 @@
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <functional>
@@ -9,8 +10,8 @@
 #include <spdlog/spdlog.h>
 #include <CLI/CLI.hpp>
 
+#include "app/bench_command.hpp"
 #include "app/oni_command.hpp"
-#include "app/options.hpp"
 #include "app/record_command.hpp"
 #include "app/run_command.hpp"
 #include "core/error.hpp"
@@ -19,10 +20,6 @@
 namespace {
 
 using saccade::ExitStatus;
-
-void set_up_log(const saccade::Settings& settings) {
-  spdlog::set_level(settings.quiet ? spdlog::level::warn : spdlog::level::from_str(settings.log_level));
-}
 
 int report(const std::string& line, ExitStatus status) {
   std::fprintf(stderr, "saccade: %s\n", line.c_str());
@@ -38,25 +35,10 @@ int run_program(int argc, char** argv) {
   app.require_subcommand(1);
   std::function<void()> action;
 
-  CLI::App& run =
-      *app.add_subcommand("run", "process a source without a window; write maps, overlays, fixations");
-  saccade::RunArguments arguments{{}, {}, {argv, argv + argc}};
-  run.add_option("SOURCE", arguments.source, "a folder of images, or synthetic:NAME?key=value&...")
-      ->required();
-  run.add_option("--out", arguments.out, "folder to write to, made if it is not there")
-      ->required()
-      ->type_name("DIR");
-  const saccade::SettingsOptions options(run);
-  run.callback([&] {
-    action = [&] {
-      const saccade::Settings settings = options.resolve();
-      set_up_log(settings);
-      saccade::run(arguments, settings);
-    };
-  });
-
+  saccade::add_run_command(app, action, {argv, argv + argc});
   saccade::add_record_command(app, action);
   saccade::add_oni_command(app, action);
+  saccade::add_bench_command(app, action);
 
   try {
     app.parse(argc, argv);
@@ -72,6 +54,9 @@ int run_program(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  // A file-size limit and a closed pipe then show as a failed write, which is told like a full disk.
+  std::signal(SIGXFSZ, SIG_IGN);
+  std::signal(SIGPIPE, SIG_IGN);
   try {
     return run_program(argc, argv);
   } catch (const saccade::Error& error) {

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
-#include <csignal>
 #include <cstdio>
 #include <filesystem>
 #include <map>
@@ -189,8 +188,6 @@ class RecordRun {
 }  // namespace
 
 void record(const RecordArguments& arguments) {
-  // A file-size limit then shows as a failed write, which is treated as a full disk, and not as this signal.
-  std::signal(SIGXFSZ, SIG_IGN);
   cv::setNumThreads(1);
   RecordRun(arguments).execute();
 }

@@ -4,8 +4,10 @@
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
+#include <memory>
 #include <mutex>
 #include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
@@ -16,6 +18,7 @@
 #include "app/frame_writer.hpp"
 #include "app/interrupt.hpp"
 #include "app/manifest.hpp"
+#include "app/options.hpp"
 #include "app/progress.hpp"
 #include "app/writer_pool.hpp"
 #include "core/error.hpp"
@@ -217,6 +220,28 @@ class Run {
 void run(const RunArguments& arguments, const Settings& settings) {
   cv::setNumThreads(1);  // the threads are ours to count
   Run(arguments, settings).execute(arguments.source);
+}
+
+void add_run_command(CLI::App& app, std::function<void()>& action, std::vector<std::string> command_line) {
+  CLI::App& command =
+      *app.add_subcommand("run", "process a source without a window; write maps, overlays, fixations");
+  const auto arguments = std::make_shared<RunArguments>();
+  arguments->command_line = std::move(command_line);
+  command
+      .add_option("SOURCE", arguments->source,
+                  "a folder of images, FILE.oni, or synthetic:NAME?key=value&...")
+      ->required();
+  command.add_option("--out", arguments->out, "folder to write to, made if it is not there")
+      ->required()
+      ->type_name("DIR");
+  const auto options = std::make_shared<SettingsOptions>(command);
+  command.callback([arguments, options, &action] {
+    action = [arguments, options] {
+      const Settings settings = options->resolve();
+      spdlog::set_level(settings.quiet ? spdlog::level::warn : spdlog::level::from_str(settings.log_level));
+      run(*arguments, settings);
+    };
+  });
 }
 
 }  // namespace saccade

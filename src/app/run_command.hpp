@@ -1,7 +1,10 @@
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
+
+#include <CLI/CLI.hpp>
 
 #include "core/settings.hpp"
 
@@ -15,5 +18,9 @@ struct RunArguments {
 
 /// `saccade run`: computes every frame of the source and writes DIR (SPEC section 7). Throws Error.
 void run(const RunArguments& arguments, const Settings& settings);
+
+/// Adds the command to `app`; parsing it sets `action` to what it does. `command_line` goes into the
+/// manifest.
+void add_run_command(CLI::App& app, std::function<void()>& action, std::vector<std::string> command_line);
 
 }  // namespace saccade

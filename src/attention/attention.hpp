@@ -31,7 +31,8 @@ struct Fixation {
 struct Attention {
   std::vector<Fixation> fixations;
   std::string ended_early;  ///< why there are fewer than were asked for; empty = there are not
-  cv::Mat1w masks;  ///< H x W, rank (1..) of the fixation whose proto-object holds the pixel, 0 = none
+  cv::Mat1w masks;  ///< H x W, rank (1..) of the fixation whose proto-object holds the pixel, 0 = none; of
+                    ///< the `wta` selector all 0
 };
 
 /// Chooses attention points in a saliency map (SPEC section 4). Keeps memory between frames.
@@ -40,12 +41,17 @@ class AttentionSelector {
  public:
   virtual ~AttentionSelector() = default;
 
-  /// saliency: H x W, finite, >= 0. depth_mm: H x W, 0 = no reading. The same input gives the same output.
+  /// saliency: H x W, finite, >= 0. depth_mm: H x W, 0 = no reading, finite, never negative. Overwrites
+  /// `attention` whole, reusing its memory. The same input gives the same output, whatever came before. No
+  /// two fixations are at one pixel; there may be fewer than asked for, and then ended_early says why. Throws
+  /// std::invalid_argument if the images are empty or of different sizes, or the camera is not valid.
   virtual void select(const cv::Mat1f& saliency, const cv::Mat1f& depth_mm, const Intrinsics& camera,
                       Attention& attention) = 0;
 };
 
-/// The selector that `settings` asks for.
+/// The selector that `settings` asks for: ProtoSelector (attention/proto.hpp) or WtaSelector
+/// (attention/wta.hpp). Throws std::invalid_argument for a number of fixations or a focus that they cannot
+/// use.
 std::unique_ptr<AttentionSelector> make_selector(const Settings& settings);
 
 }  // namespace saccade

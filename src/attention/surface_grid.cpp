@@ -21,6 +21,10 @@ constexpr float kConcaveReach = 0.05F;  // of the depth; farther apart in depth 
 
 constexpr float kMetre = 1e-3F;
 
+// By value: compilers make no vectors of std::min and std::max, which give references.
+constexpr float lower(float a, float b) { return a < b ? a : b; }
+constexpr float higher(float a, float b) { return a > b ? a : b; }
+
 }  // namespace
 
 void SurfaceGrid::build(const cv::Mat1f& depth_mm, const Intrinsics& camera) {
@@ -75,8 +79,8 @@ void SurfaceGrid::make_cells(const cv::Mat1f& depth) {
       const float *a = depth[r * kCell], *b = depth[r * kCell + 1], *c = depth[r * kCell + 2],
                   *d = depth[r * kCell + 3];
       for (std::size_t u = 0; u < width; ++u) {
-        low[u] = std::min(std::min(a[u], b[u]), std::min(c[u], d[u]));
-        high[u] = std::max(std::max(a[u], b[u]), std::max(c[u], d[u]));
+        low[u] = lower(lower(a[u], b[u]), lower(c[u], d[u]));
+        high[u] = higher(higher(a[u], b[u]), higher(c[u], d[u]));
         sum[u] = (a[u] + b[u]) + (c[u] + d[u]);
       }
     }
@@ -86,8 +90,8 @@ void SurfaceGrid::make_cells(const cv::Mat1f& depth) {
       const std::size_t u = static_cast<std::size_t>(c) * kCell;
       float z = 0;
       if (whole_rows && u + kCell <= width) {
-        const float lowest = std::min(std::min(low[u], low[u + 1]), std::min(low[u + 2], low[u + 3]));
-        const float highest = std::max(std::max(high[u], high[u + 1]), std::max(high[u + 2], high[u + 3]));
+        const float lowest = lower(lower(low[u], low[u + 1]), lower(low[u + 2], low[u + 3]));
+        const float highest = higher(higher(high[u], high[u + 1]), higher(high[u + 2], high[u + 3]));
         if (lowest > 0 && highest - lowest <= kSameSurface * lowest)
           z = ((sum[u] + sum[u + 1]) + (sum[u + 2] + sum[u + 3])) / (kCell * kCell);
         else if (highest > 0)
@@ -171,22 +175,22 @@ bool SurfaceGrid::is_whole(int row, int col) const {
   const auto width = static_cast<std::size_t>(cols_);
   const std::size_t i = static_cast<std::size_t>(row) * width + static_cast<std::size_t>(col);
   const std::size_t a = i - 2 * width, b = i - width, d = i + width, e = i + 2 * width;
-  const float low =
-      std::min(std::min(std::min(lowest_[a], lowest_[b]), std::min(lowest_[d], lowest_[e])), lowest_[i]);
+  const float low = lower(lower(lower(lowest_[a], lowest_[b]), lower(lowest_[d], lowest_[e])), lowest_[i]);
   const float high =
-      std::max(std::max(std::max(highest_[a], highest_[b]), std::max(highest_[d], highest_[e])), highest_[i]);
+      higher(higher(higher(highest_[a], highest_[b]), higher(highest_[d], highest_[e])), highest_[i]);
   return high - z_[i] <= kSameSurface * z_[i] && z_[i] - low <= kSameSurface * z_[i];
 }
 
 void SurfaceGrid::sum_fives() {
   for (auto* array : {&lowest_, &highest_, &sum_, &sum_u_}) array->resize(size());
-  for (std::size_t i = kReach; i + kReach < size();
-       ++i) {  // also across the ends of rows; those are not used
-    const float *z = &z_[i], *w = &w_[i];
-    lowest_[i] = std::min(std::min(std::min(z[-2], z[-1]), std::min(z[1], z[2])), z[0]);
-    highest_[i] = std::max(std::max(std::max(z[-2], z[-1]), std::max(z[1], z[2])), z[0]);
-    sum_[i] = ((w[-2] + w[2]) + (w[-1] + w[1])) + w[0];
-    sum_u_[i] = 2 * (w[2] - w[-2]) + (w[1] - w[-1]);
+  const float *z = z_.data(), *w = w_.data();
+  float *low = lowest_.data(), *high = highest_.data(), *sum = sum_.data(), *sum_u = sum_u_.data();
+  const int last = static_cast<int>(size()) - kReach;
+  for (int i = kReach; i < last; ++i) {  // also across the ends of rows; those are not used
+    low[i] = lower(lower(lower(z[i - 2], z[i - 1]), lower(z[i + 1], z[i + 2])), z[i]);
+    high[i] = higher(higher(higher(z[i - 2], z[i - 1]), higher(z[i + 1], z[i + 2])), z[i]);
+    sum[i] = ((w[i - 2] + w[i + 2]) + (w[i - 1] + w[i + 1])) + w[i];
+    sum_u[i] = 2 * (w[i + 2] - w[i - 2]) + (w[i + 1] - w[i - 1]);
   }
 }
 
@@ -220,27 +224,34 @@ void SurfaceGrid::find_concave_edges() {
   concave_.assign(size(), 0);
   const int directions[4][2] = {{0, 1}, {1, 0}, {1, 1}, {1, -1}};
   for (const auto& [down, right] : directions) {
-    const int step = kReach * (down * cols_ + right);
     const int first_col = right == 0 ? 0 : kReach, last_col = right == 0 ? cols_ : cols_ - kReach;
-    for (int r = down * kReach; r < rows_ - down * kReach; ++r) {
-      const int begin = r * cols_ + first_col, end = r * cols_ + last_col;
-      for (int k = begin; k < end; ++k) {
-        const auto i = static_cast<std::size_t>(k), a = static_cast<std::size_t>(k - step),
-                   b = static_cast<std::size_t>(k + step);
-        const float px = x_[b] - x_[a], py = y_[b] - y_[a], pz = z_[b] - z_[a], z = z_[i];
-        const float turn = (nx_[b] - nx_[a]) * px + (ny_[b] - ny_[a]) * py + (nz_[b] - nz_[a]) * pz;
-        const float limit = kConcave + kConcavePerMetre * std::max(0.0F, kMetre * z - 1);
-        const float reach = kConcaveReach * z, length2 = px * px + py * py + pz * pz;
-        const bool concave = (turn < 0) & (turn * turn > limit * limit * length2) &
-                             (std::abs(z_[a] - z) <= reach) & (std::abs(z_[b] - z) <= reach) & (nz_[a] != 0) &
-                             (nz_[b] != 0);
-        concave_[i] |= concave ? 1 : 0;
-      }
-    }
+    for (int r = down * kReach; r < rows_ - down * kReach; ++r)
+      mark_concave(r * cols_ + first_col, r * cols_ + last_col, kReach * (down * cols_ + right));
   }
   convex_.resize(size());
   for (std::size_t i = 0; i < size(); ++i)
     convex_[i] = static_cast<std::uint8_t>((nz_[i] != 0) & (concave_[i] == 0));
+}
+
+// Cells [begin, end) with the ends of the baseline `step` before and behind. Selections instead of branches,
+// so that compilers make vectors of it.
+void SurfaceGrid::mark_concave(int begin, int end, int step) {
+  const float *x = x_.data(), *y = y_.data(), *z = z_.data();
+  const float *nx = nx_.data(), *ny = ny_.data(), *nz = nz_.data();
+  std::int32_t* const concave = concave_.data();
+  for (int i = begin; i < end; ++i) {
+    const int a = i - step, b = i + step;
+    const float px = x[b] - x[a], py = y[b] - y[a], pz = z[b] - z[a];
+    const float turn = (nx[b] - nx[a]) * px + (ny[b] - ny[a]) * py + (nz[b] - nz[a]) * pz;
+    const float farther = kMetre * z[i] - 1;
+    const float limit = kConcave + kConcavePerMetre * (farther > 0 ? farther : 0);
+    const float towards = turn < 0 ? turn * turn : 0;
+    const float away_a = std::abs(z[a] - z[i]), away_b = std::abs(z[b] - z[i]);
+    const float away = away_a > away_b ? away_a : away_b;
+    const float without_jump = away <= kConcaveReach * z[i] ? towards : 0;
+    const float with_normals = nz[a] * nz[b] > 0 ? without_jump : 0;
+    concave[i] = with_normals > limit * limit * (px * px + py * py + pz * pz) ? 1 : concave[i];
+  }
 }
 
 // Linked: the step in depth, or the distance from the tangent plane of one of the two (which a slanted

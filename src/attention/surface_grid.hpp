@@ -58,6 +58,7 @@ class SurfaceGrid {
   void normals_with_gaps(int row, int first_col);
   void set_normal(std::size_t i, int row, int col, float slope_u, float slope_v, float w);
   void find_concave_edges();
+  void mark_concave(int begin, int end, int step);
   void find_links();
 
   static constexpr int kLanes = 4;  // cells that normals_with_gaps() takes at once

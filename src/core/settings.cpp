@@ -110,12 +110,12 @@ std::string print_intrinsics(const Settings& s) {
 }
 
 void parse_dump(Settings& s, const std::string& text) {
-  static const std::vector<std::string> known = {"maps", "levels", "overlay", "normals", "masks"};
+  static const std::vector<std::string> known = {"maps", "levels", "overlay", "normals", "masks", "labels"};
   std::set<std::string> dump;
   if (text != "none")
     for (const std::string& part : split(text, ',')) {
       if (std::find(known.begin(), known.end(), part) == known.end())
-        throw std::invalid_argument("none, or a list of maps, levels, overlay, normals, masks");
+        throw std::invalid_argument("none, or a list of maps, levels, overlay, normals, masks, labels");
       dump.insert(part);
     }
   s.dump = dump;
@@ -156,8 +156,8 @@ std::vector<SettingSpec> make_specs() {
        print_intrinsics},
       number("workers", "N", "computing threads, 0 = one per processor, at most 256", &Settings::workers, 0,
              256),
-      {"dump", "LIST", "what to write of each frame: maps,levels,overlay,normals,masks or none", parse_dump,
-       print_dump},
+      {"dump", "LIST", "what to write of each frame: maps,levels,overlay,normals,masks,labels or none",
+       parse_dump, print_dump},
       flag("json", "a summary in JSON on standard output, nothing else there", &Settings::json),
       flag("quiet", "no progress and no summary, only warnings and errors", &Settings::quiet),
       word("log-level", "trace, debug, info, warn, error or off", &Settings::log_level,

@@ -148,15 +148,20 @@ class Checker {
       const std::uint64_t position =
           index_.header.narrow() ? load_le<std::uint32_t>(&entry[12]) : load_le<std::uint64_t>(&entry[12]);
       const OniFrameEntry& frame = node.frames[k];
-      // The index keeps where the payload begins; the record begins at least a header before.
-      const bool there =
-          position + index_.header.record_header_size() + kOniFrameFields <= frame.payload_position &&
-          (k == 0 || position > node.frames[k - 1].payload_position);
+      const bool there = position < index_.file_size && is_frame_at(position, frame);
       if (time != frame.timestamp_us || !there)
         return add(
             at, OniSeverity::error,
             fmt::format("the table of node {} is wrong from frame {} on; players seek astray", node.id, k));
     }
+  }
+
+  bool is_frame_at(std::uint64_t position, const OniFrameEntry& frame) const {
+    std::array<std::uint8_t, kOniMaxRecordHeader + kOniFrameFields> bytes{};
+    const std::size_t got = recording_.file().read(position, bytes);
+    const auto record = parse_record(index_.header, position, std::span(bytes).first(got));
+    return record && record->type == OniRecordType::new_data &&
+           record->payload_position() == frame.payload_position;
   }
 
   Recording& recording_;

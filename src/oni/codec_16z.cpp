@@ -11,40 +11,51 @@ namespace saccade {
 namespace {
 
 constexpr std::size_t kSymbols = 65536;
+constexpr std::uint32_t kNoValue = 1u << 31;
 constexpr const char* kCut = "the coded data is cut";
 constexpr const char* kTooMany = "more pixels than the image has";
 constexpr const char* kNoTable = "the table of values is damaged";
 constexpr const char* kNotInTable = "a pixel that is not in the table of values";
 
-// What a byte below 0xE0 without an escape does: two differences, of which the second may be absent.
+// What a byte does that is no escape: one pixel `first` below the last, and then `pixels` - 1 of the value
+// `last` below the one before the byte. Runs are the same with differences of 0.
 struct Step {
-  std::uint16_t first = 0, second = 0;
-  std::uint8_t pixels = 0;  // 0 = not such a byte
+  std::uint16_t first = 0, last = 0;
+  std::uint8_t pixels = 0;
+  bool simple = false;  // not an escape, and at most kSimplePixels
 };
+constexpr std::size_t kSimplePixels = 16;
 
 constexpr std::array<Step, 256> make_steps() {
   std::array<Step, 256> steps{};
-  for (unsigned c = 0; c < 0xE0; ++c) {
+  for (unsigned c = 0; c < 0xFF; ++c) {
     const unsigned high = c >> 4, low = c & 15;
-    if (low == 15) continue;
-    steps[c].first = static_cast<std::uint16_t>(high - 6);
-    steps[c].second = low == 13 ? std::uint16_t{0} : static_cast<std::uint16_t>(low - 6);
-    steps[c].pixels = low == 13 ? 1 : 2;
+    Step& step = steps[c];
+    if (c >= 0xE0) {
+      step.pixels = static_cast<std::uint8_t>(2 * (c - 0xE0));
+      step.simple = step.pixels <= kSimplePixels;
+    } else if (low != 15) {
+      step.first = static_cast<std::uint16_t>(high - 6);
+      step.last = low == 13 ? step.first : static_cast<std::uint16_t>(high - 6 + low - 6);
+      step.pixels = low == 13 ? 1 : 2;
+      step.simple = true;
+    }
   }
   return steps;
 }
 constexpr std::array<Step, 256> kSteps = make_steps();
 
-// Decodes the symbol stream; a symbol's pixel is table[symbol], or the symbol itself.
+// Decodes the symbol stream; a symbol's pixel is table[symbol], or the symbol itself. A table has kSymbols
+// entries, those without a value marked kNoValue, so that any symbol may be looked up and the mark is noticed
+// at the end.
 template <bool kTable>
 class SymbolReader {
  public:
-  SymbolReader(std::span<const std::uint8_t> bytes, const std::uint16_t* table, std::uint32_t symbols,
+  SymbolReader(std::span<const std::uint8_t> bytes, const std::uint32_t* table,
                std::span<std::uint16_t> pixels)
       : in_(bytes.data()),
         in_end_(bytes.data() + bytes.size()),
         table_(table),
-        symbols_(symbols),
         begin_(pixels.data()),
         out_(pixels.data()),
         out_end_(pixels.data() + pixels.size()) {}
@@ -54,8 +65,9 @@ class SymbolReader {
     current_ = load_le<std::uint16_t>(in_);
     in_ += 2;
     if (!emit()) return result(kTooMany);
-    run_fast();
     while (in_ < in_end_) {
+      run_simple();
+      if (in_ == in_end_) break;
       const unsigned c = *in_++;
       const char* fault = c < 0xE0 ? pair(c) : c == 0xFF ? escape() : repeat(2 * (c - 0xE0));
       if (fault != nullptr) return result(fault);
@@ -64,21 +76,20 @@ class SymbolReader {
   }
 
  private:
-  static constexpr std::ptrdiff_t kMaxRun = 60;  // pixels of one byte
-
   Decoded16z result(const char* fault) const {
-    if (fault == nullptr && outside_) fault = kNotInTable;
+    if (fault == nullptr && (seen_ & kNoValue) != 0) fault = kNotInTable;
     return {static_cast<std::size_t>(out_ - begin_), fault};
   }
 
+  std::uint32_t value(std::uint32_t symbol) const {
+    if constexpr (kTable) return table_[symbol];
+    return symbol;
+  }
+
   std::uint16_t pixel() {
-    if constexpr (kTable) {
-      // The table has room for every symbol, so an unknown one is read harmlessly and told at the end.
-      outside_ |= current_ >= symbols_;
-      return table_[current_];
-    } else {
-      return static_cast<std::uint16_t>(current_);
-    }
+    const std::uint32_t v = value(current_);
+    seen_ |= v;
+    return static_cast<std::uint16_t>(v);
   }
 
   bool emit() {
@@ -87,46 +98,28 @@ class SymbolReader {
     return true;
   }
 
-  // All bytes but escapes, as long as there is room for whatever one byte can give.
-  void run_fast() {
+  // The common bytes, as long as there is room: no branch depends on what they are, since that cannot be
+  // predicted. More pixels than the byte stands for are written, and overwritten by the next.
+  void run_simple() {
     const std::uint8_t* in = in_;
     std::uint16_t* out = out_;
-    while (in < in_end_ && out_end_ - out >= kMaxRun) {
-      const unsigned c = *in;
-      if (const Step step = kSteps[c]; step.pixels != 0) {
-        current_ = (current_ - step.first) & 0xFFFF;
-        out[0] = pixel();
-        current_ = (current_ - step.second) & 0xFFFF;
-        out[1] = pixel();
-        out += step.pixels;
-        ++in;
-      } else if (c >= 0xE0 && c < 0xFF) {
-        const std::uint16_t value = pixel();
-        const std::size_t count = 2 * (c - 0xE0);
-        std::fill_n(out, 30, value);
-        if (count > 30) std::fill_n(out + 30, kMaxRun - 30, value);
-        out += count;
-        ++in;
-      } else {
-        in_ = in + 1;
-        out_ = out;
-        if (c != 0xFF) {
-          current_ = (current_ - ((c >> 4) - 6)) & 0xFFFF;
-          *out_++ = pixel();
-        }
-        if (escape() != nullptr) {
-          // The careful loop meets the same fault again and names it.
-          in_ = in;
-          out_ = out;
-          if (c != 0xFF) current_ = (current_ + ((c >> 4) - 6)) & 0xFFFF;
-          return;
-        }
-        in = in_;
-        out = out_;
-      }
+    std::uint32_t current = current_, seen = 0;
+    while (in < in_end_ && static_cast<std::size_t>(out_end_ - out) >= kSimplePixels) {
+      const Step step = kSteps[*in];
+      if (!step.simple) break;
+      const std::uint32_t first = value((current - step.first) & 0xFFFF);
+      current = (current - step.last) & 0xFFFF;
+      const std::uint32_t last = value(current);
+      seen |= first | last;
+      std::fill_n(out, kSimplePixels, static_cast<std::uint16_t>(last));
+      *out = static_cast<std::uint16_t>(first);
+      out += step.pixels;
+      ++in;
     }
     in_ = in;
     out_ = out;
+    current_ = current;
+    seen_ |= seen;
   }
 
   const char* pair(unsigned c) {
@@ -162,13 +155,12 @@ class SymbolReader {
 
   const std::uint8_t* in_;
   const std::uint8_t* const in_end_;
-  const std::uint16_t* const table_;
-  const std::uint32_t symbols_;
+  const std::uint32_t* const table_;
   std::uint16_t* const begin_;
   std::uint16_t* out_;
   std::uint16_t* const out_end_;
   std::uint32_t current_ = 0;  // 16 bits; wider, so that writing pixels cannot be taken for changing it
-  bool outside_ = false;
+  std::uint32_t seen_ = 0;     // all values together
 };
 
 // Writes symbols, packing small differences into nibbles and runs.
@@ -239,15 +231,15 @@ class SymbolWriter {
 
 Decoded16z Decoder16z::decode(Codec16z codec, std::span<const std::uint8_t> payload,
                               std::span<std::uint16_t> pixels) {
-  if (codec == Codec16z::plain) return SymbolReader<false>(payload, nullptr, kSymbols, pixels).run();
+  if (codec == Codec16z::plain) return SymbolReader<false>(payload, nullptr, pixels).run();
   if (payload.size() < 2) return {0, kCut};
   const std::size_t count = load_le<std::uint16_t>(payload.data());
   if (count == 0 || payload.size() < 2 + 2 * count + 2) return {0, kNoTable};
-  table_.resize(kSymbols);
-  std::memcpy(table_.data(), payload.data() + 2, 2 * count);
-  return SymbolReader<true>(payload.subspan(2 + 2 * count), table_.data(), static_cast<std::uint32_t>(count),
-                            pixels)
-      .run();
+  table_.resize(kSymbols, kNoValue);
+  for (std::size_t i = 0; i < count; ++i) table_[i] = load_le<std::uint16_t>(payload.data() + 2 + 2 * i);
+  for (std::size_t i = count; i < filled_; ++i) table_[i] = kNoValue;  // of the frame before
+  filled_ = count;
+  return SymbolReader<true>(payload.subspan(2 + 2 * count), table_.data(), pixels).run();
 }
 
 void Encoder16z::build_table(std::span<const std::uint16_t> pixels) {

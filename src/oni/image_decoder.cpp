@@ -12,6 +12,8 @@
 namespace saccade {
 namespace {
 
+constexpr const char* kTooShort = "the coded data is too short for the image";
+
 std::string wrong_size(std::size_t is, std::size_t should) {
   return fmt::format("decoded to {} bytes instead of {}", is, should);
 }
@@ -34,7 +36,7 @@ std::string OniImageDecoder::decode_16z(Codec16z codec, const OniFormat& format,
                                         std::span<const std::uint8_t> payload) {
   const auto area = static_cast<std::size_t>(format.size.area()),
              crop_area = static_cast<std::size_t>(format.crop.area());
-  if (!may_hold_16z(payload.size(), crop_area)) return "the coded data is too short for the image";
+  if (!may_hold_16z(payload.size(), crop_area)) return kTooShort;
   // Room for the full image: a recorder does not tell when cropping is switched off during a recording.
   const std::size_t room = may_hold_16z(payload.size(), area) ? area : crop_area;
   if (pixels_.size() < 2 * room) pixels_.resize(2 * room);
@@ -47,6 +49,18 @@ std::string OniImageDecoder::decode_16z(Codec16z codec, const OniFormat& format,
   return {};
 }
 
+// The usual case, a frame that is not cropped, without a copy in between.
+std::string OniImageDecoder::decode_whole_16z(Codec16z codec, cv::Size size,
+                                              std::span<const std::uint8_t> payload, cv::Mat1w& depth) {
+  const auto area = static_cast<std::size_t>(size.area());
+  if (!may_hold_16z(payload.size(), area)) return kTooShort;
+  depth.create(size);
+  if (!depth.isContinuous()) depth = cv::Mat1w(size);
+  const Decoded16z decoded = decoder_16z_.decode(codec, payload, {depth.ptr<std::uint16_t>(), area});
+  if (decoded.fault != nullptr) return decoded.fault;
+  return decoded.pixels == area ? std::string() : wrong_size(2 * decoded.pixels, 2 * area);
+}
+
 // The packed pixels of a frame into pixels_, and where they belong into place_.
 std::string OniImageDecoder::decode_pixels(OniCodec codec, const OniFormat& format,
                                            std::span<const std::uint8_t> payload) {
@@ -57,7 +71,7 @@ std::string OniImageDecoder::decode_pixels(OniCodec codec, const OniFormat& form
                     crop = static_cast<std::size_t>(format.crop.area()) * depth;
   place_ = format.crop;
   if (codec == OniCodec::z8) {
-    if (!may_hold_im8z(payload.size(), crop)) return "the coded data is too short for the image";
+    if (!may_hold_im8z(payload.size(), crop)) return kTooShort;
     if (pixels_.size() < crop) pixels_.resize(crop);
     const DecodedIm8z decoded = decode_im8z(payload, std::span(pixels_).first(crop));
     if (decoded.fault != nullptr) return decoded.fault;
@@ -73,6 +87,10 @@ std::string OniImageDecoder::decode_pixels(OniCodec codec, const OniFormat& form
 std::string OniImageDecoder::decode_depth(OniCodec codec, const OniFormat& format,
                                           std::span<const std::uint8_t> payload, cv::Mat1w& depth) {
   if (!format.unusable.empty()) return format.unusable;
+  const bool z16 = codec == OniCodec::z16t || codec == OniCodec::z16p;
+  if (z16 && format.crop.size() == format.size)
+    return decode_whole_16z(codec == OniCodec::z16t ? Codec16z::table : Codec16z::plain, format.size, payload,
+                            depth);
   const std::string fault = decode_pixels(codec, format, payload);
   if (!fault.empty()) return fault;
   depth.create(format.size);

@@ -35,6 +35,9 @@ class OniImageDecoder {
   std::string decode_pixels(OniCodec codec, const OniFormat& format, std::span<const std::uint8_t> payload);
   std::string decode_16z(Codec16z codec, const OniFormat& format, std::span<const std::uint8_t> payload);
 
+  std::string decode_whole_16z(Codec16z codec, cv::Size size, std::span<const std::uint8_t> payload,
+                               cv::Mat1w& depth);
+
   Decoder16z decoder_16z_;
   JpegCodec jpeg_;
   std::vector<std::uint8_t> pixels_;  // of one frame, rows packed

@@ -77,16 +77,6 @@ bool fits(OniCodec codec, OniPixelFormat format) {
   return false;
 }
 
-// Cropping that does not fit the image is ignored.
-cv::Rect crop_at(const OniNode& node, std::uint64_t position, cv::Size size) {
-  const cv::Rect whole(cv::Point(0, 0), size);
-  const auto value = node.property(kCropping, position);
-  if (!value || load_le<std::uint32_t>(value->data()) == 0) return whole;
-  const auto number = [&](std::size_t i) { return int{load_le<std::uint16_t>(value->data() + 4 + 2 * i)}; };
-  const cv::Rect crop(number(0), number(1), number(2), number(3));
-  return crop.area() > 0 && (crop & whole) == crop ? crop : whole;
-}
-
 bool is_angle(double value) { return std::isfinite(value) && value > 0 && value < std::numbers::pi; }
 
 std::optional<Intrinsics> from_angles(double horizontal_rad, double vertical_rad, cv::Size size) {
@@ -96,7 +86,25 @@ std::optional<Intrinsics> from_angles(double horizontal_rad, double vertical_rad
   return camera.valid() ? std::optional(camera) : std::nullopt;
 }
 
+// Cropping that does not fit the image is ignored.
+cv::Rect crop_at(const OniNode& node, std::uint64_t position, cv::Size size) {
+  const auto crop = cropping_at(node, position);
+  return crop && fits_in(*crop, size) ? *crop : cv::Rect(cv::Point(0, 0), size);
+}
+
 }  // namespace
+
+std::optional<cv::Rect> cropping_at(const OniNode& node, std::uint64_t position) {
+  const auto value = node.property(kCropping, position);
+  if (!value || load_le<std::uint32_t>(value->data()) == 0) return std::nullopt;
+  const auto number = [&](std::size_t i) { return int{load_le<std::uint16_t>(value->data() + 4 + 2 * i)}; };
+  return cv::Rect(number(0), number(1), number(2), number(3));
+}
+
+bool fits_in(const cv::Rect& part, cv::Size size) {
+  return part.width >= 1 && part.height >= 1 && part.x + part.width <= size.width &&
+         part.y + part.height <= size.height;
+}
 
 std::optional<OniPropertySize> known_property_size(std::string_view name) {
   const auto found =

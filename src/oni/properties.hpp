@@ -57,6 +57,13 @@ struct OniFormat {
 /// The format that holds for what lies at `position`. Every number in the file is checked against its bound.
 OniFormat format_at(const OniNode& node, std::uint64_t position);
 
+/// The part of the image that frames at `position` are said to hold; absent if cropping is off. Nothing about
+/// it is checked.
+std::optional<cv::Rect> cropping_at(const OniNode& node, std::uint64_t position);
+
+/// True if a part that is not empty, with a corner of 0..65535, lies within an image.
+bool fits_in(const cv::Rect& part, cv::Size size);
+
 /// The camera of a stream: Saccade's own record of it (exact), or from the field of view, or from the
 /// zero-plane data of old files; absent if the file has none. A recorded guess stays a guess.
 std::optional<Intrinsics> intrinsics_at(const OniNode& node, std::uint64_t position, cv::Size size);

@@ -130,15 +130,11 @@ class Repair {
 
   bool crop_is_possible(const OniRecord& record) const {
     const OniNode& node = *index_.find(record.node);
-    const auto value = node.property(oni_property::kCropping, record.end());
-    if (!value || load_le<std::uint32_t>(value->data()) == 0) return true;
-    const OniFormat format = format_at(node, index_.file_size);
+    const auto crop = cropping_at(node, record.end());
     const OniFormat here = format_at(node, record.end());
     // Where the image size comes later in the file, it is that one that counts.
-    const cv::Size size = here.size.empty() ? format.size : here.size;
-    const auto number = [&](std::size_t i) { return int{load_le<std::uint16_t>(value->data() + 4 + 2 * i)}; };
-    const cv::Rect crop(number(0), number(1), number(2), number(3));
-    return crop.area() > 0 && (crop & cv::Rect(cv::Point(0, 0), size)) == crop;
+    const cv::Size size = here.size.empty() ? format_at(node, index_.file_size).size : here.size;
+    return !crop || fits_in(*crop, size);
   }
 
   void copy_frame(const OniRecord& record) {

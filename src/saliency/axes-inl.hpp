@@ -17,23 +17,23 @@ namespace HWY_NAMESPACE {
 
 /// Of each pixel of row r: the covariance of the normals, and the sums that the halves are taken from. The
 /// covariance is a difference of nearly equal numbers where surfaces are flat; in double it is exact enough.
-HWY_INLINE void window_statistics(const LevelPlanes& level, int r, int reach, RowScratch& scratch) {
+HWY_INLINE void window_statistics(const LevelPlanes& level, int r, int reach, WindowSums& boxes,
+                                  RowStatistics& statistics) {
   using S = RowStatistics;
   const WideV whole_unit = hn::Set(kWide, 1.0 / (1 << normal_bits(reach)));
-  const WideV eighth = hn::Set(kWide, 1.0 / static_cast<double>(DepthPacking::kUnitsPerMm));
+  const WideV inverse_units = hn::Set(kWide, 1.0 / static_cast<double>(level.packing.units_per_mm));
   const WideV count_unit = hn::Set(kWide, static_cast<double>(level.packing.count_unit));
   const float* packed = level.row(LevelPlanes::kPacked, r);
   for (int c = 0; c < level.width(); c += kWideLanes) {
     const auto whole = [&](WindowSums::Whole i) HWY_ATTR {
-      const std::int32_t* sums = scratch.boxes.whole[static_cast<std::size_t>(i)].data();
+      const std::int32_t* sums = boxes.whole[static_cast<std::size_t>(i)].data();
       return hn::Mul(hn::PromoteTo(kWide, hn::Load(kHalfWhole, sums + c)), whole_unit);
     };
     const auto depth = [&](WindowSums::Double i) HWY_ATTR {
-      return hn::Load(kWide, scratch.boxes.depth[static_cast<std::size_t>(i)].data() + c);
+      return hn::Load(kWide, boxes.depth[static_cast<std::size_t>(i)].data() + c);
     };
-    const auto put = [&](S::Value value, WideV v) HWY_ATTR {
-      hn::Store(hn::DemoteTo(kHalfF, v), kHalfF, scratch.statistics.row(value) + c);
-    };
+    const auto put = [&](S::Value value, WideV v)
+                         HWY_ATTR { hn::Store(hn::DemoteTo(kHalfF, v), kHalfF, statistics.row(value) + c); };
     const WideV x = whole(WindowSums::kX), y = whole(WindowSums::kY), z = whole(WindowSums::kZ);
     const WideV xx = whole(WindowSums::kXX), yy = whole(WindowSums::kYY), zz = whole(WindowSums::kZZ);
     const WideV n = hn::Round(hn::Add(xx, hn::Add(yy, zz)));  // normals have length 1
@@ -48,13 +48,14 @@ HWY_INLINE void window_statistics(const LevelPlanes& level, int r, int reach, Ro
     const auto centre = [&](LevelPlanes::Plane plane) HWY_ATTR {
       return hn::PromoteTo(kWide, hn::Load(kHalfF, level.row(plane, r) + c));
     };
-    const WideV z8 = depth(WindowSums::kDepth);
+    const WideV z_units = depth(WindowSums::kDepth);
     const WideV z0 = hn::Sub(hn::PromoteTo(kWide, hn::Load(kHalfF, packed + c)), count_unit);
     put(S::kCount, hn::Sub(n, hn::Set(kWide, 1.0)));
-    put(S::kZ, hn::Mul(hn::NegMulAdd(n, z0, z8), eighth));
+    put(S::kZ, hn::Mul(hn::NegMulAdd(n, z0, z_units), inverse_units));
     put(S::kZRows, depth(WindowSums::kDepthRows));
-    const WideV cols = hn::NegMulAdd(z8, hn::Iota(kWide, static_cast<double>(c)), depth(WindowSums::kDepthCols));
-    put(S::kZCols, hn::Mul(cols, eighth));
+    const WideV cols =
+        hn::NegMulAdd(z_units, hn::Iota(kWide, static_cast<double>(c)), depth(WindowSums::kDepthCols));
+    put(S::kZCols, hn::Mul(cols, inverse_units));
     put(S::kNormalX, hn::Sub(x, centre(LevelPlanes::kNormalX)));
     put(S::kNormalY, hn::Sub(y, centre(LevelPlanes::kNormalY)));
     put(S::kNormalZ, hn::Sub(z, centre(LevelPlanes::kNormalZ)));
@@ -67,8 +68,8 @@ struct Diagonalisation {
   V axes[3][3];  ///< [axis][component]
 };
 
-/// One Jacobi rotation: makes the element apq 0. arp and arq are the elements that p and q share with the third
-/// index.
+/// One Jacobi rotation: makes the element apq 0. arp and arq are the elements that p and q share with the
+/// third index.
 HWY_INLINE void rotate(V& app, V& aqq, V& apq, V& arp, V& arq, V (&axis_p)[3], V (&axis_q)[3]) {
   const V tiny = set(1e-30f);
   const V difference = hn::Sub(aqq, app), twice = hn::Add(apq, apq);
@@ -98,7 +99,8 @@ HWY_INLINE void gaussian_image_axes(const int* columns, RowStatistics& statistic
   constexpr int kSweeps = 4;
   Diagonalisation m[kGroups];
   for (int g = 0; g < kGroups; ++g) {
-    const auto get = [&](S::Value value) HWY_ATTR { return hn::Load(kF, statistics.row(value) + columns[g]); };
+    const auto get = [&](S::Value value)
+                         HWY_ATTR { return hn::Load(kF, statistics.row(value) + columns[g]); };
     const V n = hn::Add(get(S::kCount), set(1.0f));
     const V scale = reciprocal(hn::Max(hn::Mul(n, n), set(1.0f)));
     m[g].xx = hn::Mul(get(S::kCovXX), scale);

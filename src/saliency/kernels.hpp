@@ -11,6 +11,12 @@
 
 namespace saccade {
 
+/// What the readings of some rows are like.
+struct DepthRange {
+  float largest_mm = 0;
+  bool multiples_of_eighths = true;
+};
+
 /// The stages of the operator for rows [begin, end) of a level, compiled for one instruction set. They write
 /// these rows and nothing else (besides the scratch memory), and a row's bits do not depend on how rows are
 /// divided, except that symmetry_rows() must always be given the same `begin` for the same rows.
@@ -18,9 +24,9 @@ struct Kernels {
   std::string_view name;  ///< as in Settings::simd: "avx512", ...
   int lanes;              ///< floats a vector
 
-  /// Depth as it comes from a frame into kDepth and kInverse of level 0; returns the largest. What is not
-  /// above 0 and at most 65535 mm counts as no reading.
-  float (*load_rows)(const cv::Mat1f& depth_mm, LevelPlanes& level, int begin, int end);
+  /// Depth as it comes from a frame into kDepth and kInverse of level 0. What is not above 0 and at most
+  /// 65535 mm counts as no reading.
+  DepthRange (*load_rows)(const cv::Mat1f& depth_mm, LevelPlanes& level, int begin, int end);
 
   /// Rows of `half`, kDepth and kInverse, from kDepth of `full` (SPEC 1.2), to the bit as reference::halve().
   void (*halve_rows)(const LevelPlanes& full, LevelPlanes& half, int begin, int end, RowScratch& scratch);

@@ -10,12 +10,17 @@ constexpr int round_up(int value, int step) { return (value + step - 1) / step *
 
 }  // namespace
 
-DepthPacking DepthPacking::for_depths_up_to(float largest_mm) {
+DepthPacking DepthPacking::for_depths(float largest_mm, bool multiples_of_eighths) {
   constexpr float kBits20 = 1 << 20, kBits21 = 1 << 21;
-  const float units = largest_mm * kUnitsPerMm + 1;  // and one for rounding
-  if (15 * units < kBits20) return {kBits20, 15};
-  if (7 * units < kBits21) return {kBits21, 7};
-  return {kBits21, 4};  // 4 * 65535 mm still fits
+  const auto fits = [&](int rows, float units_per_mm, float bits) {
+    return static_cast<float>(rows) * (largest_mm * units_per_mm + 1) < bits;  // and one for rounding
+  };
+  if (!multiples_of_eighths)
+    for (float units = 256; units > 8; units /= 2)
+      if (fits(4, units, kBits21)) return {units, kBits21, 4};
+  if (fits(15, 8, kBits20)) return {8, kBits20, 15};
+  if (fits(7, 8, kBits21)) return {8, kBits21, 7};
+  return {8, kBits21, 4};  // 65535 mm still fit
 }
 
 LevelPlanes::LevelPlanes(cv::Size size, int reach)
@@ -25,8 +30,9 @@ LevelPlanes::LevelPlanes(cv::Size size, int reach)
   // Rows a power of two apart would compete for the same cache lines.
   if (stride % 128 == 0) stride += kVectorFloats;
   stride_ = stride;
-  const std::size_t plane = static_cast<std::size_t>(stride_) * static_cast<std::size_t>(height_ + 2 * kMarginRows) +
-                            9 * kVectorFloats;
+  const std::size_t plane =
+      static_cast<std::size_t>(stride_) * static_cast<std::size_t>(height_ + 2 * kMarginRows) +
+      9 * kVectorFloats;
   memory_ = hwy::AllocateAligned<float>(plane * kPlanes);
   for (std::size_t p = 0; p < kPlanes; ++p) {
     float* begin = memory_.get() + p * plane;

@@ -10,16 +10,18 @@
 
 namespace saccade {
 
-/// How a pixel's depth and the number one share one float, so that one addition counts and sums. Both parts of
-/// a sum of `rows` pixels stay exact: count_unit exceeds the largest sum of depths, and the whole stays below
-/// 2^24.
+/// How a pixel's depth and the number one share one float, so that one addition counts and sums. Depths are
+/// summed in whole units. Both parts of a sum of `rows` pixels stay exact: count_unit exceeds the largest sum
+/// of depths, and the whole stays below 2^24.
 struct DepthPacking {
-  static constexpr float kUnitsPerMm = 8;  ///< depths are summed in 1/8 mm, the grid of the pyramid
-  float count_unit = 0;                    ///< what one pixel adds besides its depth in 1/8 mm
-  int rows = 0;                            ///< so many pixels may be summed before they are unpacked
+  float units_per_mm = 8;
+  float count_unit = 0;  ///< what one pixel adds besides its depth
+  int rows = 0;          ///< so many pixels may be summed before they are unpacked
 
-  /// For an image whose depths are at most `largest_mm`, itself at most 65535.
-  static DepthPacking for_depths_up_to(float largest_mm);
+  /// For depths up to `largest_mm`, itself at most 65535. If all are multiples of 1/8 mm (as every level but
+  /// the first is, and that too with a usual sensor) nothing is rounded; else depths are rounded to units,
+  /// which are 1/8 to 1/256 mm, where they are summed and nowhere else.
+  static DepthPacking for_depths(float largest_mm, bool multiples_of_eighths);
 };
 
 /// One pyramid level as structure of arrays. Around each image there are margins, which hold invalid pixels,
@@ -41,7 +43,7 @@ class LevelPlanes {
     kPlanes
   };
 
-  static constexpr int kMarginRows = 2;   ///< what the 5 x 5 windows of the normals reach
+  static constexpr int kMarginRows = 2;     ///< what the 5 x 5 windows of the normals reach
   static constexpr int kVectorFloats = 16;  ///< the widest vector
 
   /// Memory for an image of `size` seen by windows that reach `reach` columns; all pixels invalid.

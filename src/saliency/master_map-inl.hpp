@@ -17,8 +17,9 @@ HWY_BEFORE_NAMESPACE();
 namespace saccade {
 namespace HWY_NAMESPACE {
 
-/// Kernels::add_upsampled_rows. A bilinear map of level l, sampled at the pixels of level l - 1 and interpolated
-/// between them, is the same bilinear map; so that it can go down level by level, each step a mean of two.
+/// Kernels::add_upsampled_rows. A bilinear map of level l, sampled at the pixels of level l - 1 and
+/// interpolated between them, is the same bilinear map; so that it can go down level by level, each step a
+/// mean of two.
 void add_upsampled_rows(LevelPlanes& fine, float weight, const LevelPlanes& coarse, int begin, int end,
                         RowScratch& scratch) {
   const DenormalsAreZero denormals;

@@ -67,8 +67,7 @@ HWY_INLINE Vec3 normal_of_fit(const PlaneFitSums& s, const Intrinsics& camera, i
   const V inverse = hn::Div(set(1.0f), hn::IfThenElse(found, determinant, set(1.0f)));
   const V a = hn::Mul(hn::NegMulAdd(vq, uv, hn::Mul(uq, vv)), inverse),
           b = hn::Mul(hn::NegMulAdd(uq, uv, hn::Mul(vq, uu)), inverse);
-  const V c = hn::Mul(hn::NegMulAdd(a, s.u, hn::NegMulAdd(b, s.v, s.q)),
-                      reciprocal(hn::Max(s.n, set(1.0f))));
+  const V c = hn::Mul(hn::NegMulAdd(a, s.u, hn::NegMulAdd(b, s.v, s.q)), reciprocal(hn::Max(s.n, set(1.0f))));
   // 1/z = a'x + b'y + c' over the rays x, y; (a', b', c') times the centre's depth:
   const V cols = hn::Add(hn::Iota(kF, 0.0f), set(col - camera.cx)), rows = set(row - camera.cy);
   const Vec3 plane{hn::Mul(a, set(camera.fx)), hn::Mul(b, set(camera.fy)),
@@ -79,7 +78,7 @@ HWY_INLINE Vec3 normal_of_fit(const PlaneFitSums& s, const Intrinsics& camera, i
 /// Kernels::normal_rows
 void normal_rows(LevelPlanes& level, int begin, int end) {
   const V nan = set(std::numeric_limits<float>::quiet_NaN());
-  const V unit = set(level.packing.count_unit), per_mm = set(DepthPacking::kUnitsPerMm);
+  const V unit = set(level.packing.count_unit), per_mm = set(level.packing.units_per_mm);
   for (int r = begin; r < end; ++r)
     for (int c = 0; c < level.width(); c += kLanes) {
       const std::ptrdiff_t at = level.at(r, c);
@@ -92,9 +91,8 @@ void normal_rows(LevelPlanes& level, int begin, int end) {
         normal = normal_of_fit(sum_plane_fit(level, at), level.camera, r, c, found);
         usable = hn::And(has_depth, found);
       }
-      const auto put = [&](LevelPlanes::Plane plane, V v) HWY_ATTR {
-        hn::Store(v, kF, level.plane(plane) + at);
-      };
+      const auto put = [&](LevelPlanes::Plane plane, V v)
+                           HWY_ATTR { hn::Store(v, kF, level.plane(plane) + at); };
       put(LevelPlanes::kNormalX, hn::IfThenElseZero(usable, normal.x));
       put(LevelPlanes::kNormalY, hn::IfThenElseZero(usable, normal.y));
       put(LevelPlanes::kNormalZ, hn::IfThenElseZero(usable, normal.z));

@@ -62,8 +62,8 @@ HWY_INLINE V omega_1(const Vec3& n1, const Vec3& n2, const Vec3& l) {
                             hn::Mul(square, reciprocal_sqrt(hn::Max(square, tiny))));
 }
 
-/// Eqs. (3, 13) for one plane with unit normal `gamma`: its `front` (the paper's ') is where d > 0, `all` is the
-/// window without its centre.
+/// Eqs. (3, 13) for one plane with unit normal `gamma`: its `front` (the paper's ') is where d > 0, `all` is
+/// the window without its centre.
 HWY_INLINE V plane_score(const Centres& centres, const Vec3& gamma, const HalfSums& front,
                          const HalfSums& all) {
   const HalfSums back = all - front;
@@ -74,10 +74,10 @@ HWY_INLINE V plane_score(const Centres& centres, const Vec3& gamma, const HalfSu
   const Vec3 n1 = normalised(front.normal, good);                                     // Eq. (10)
   const Vec3 n2 = normalised(back.normal, good);                                      // Eq. (11)
   const Vec3 difference = p1 - p2;
-  const Vec3 l = normalised(difference, good);                                        // Eq. (9)
+  const Vec3 l = normalised(difference, good);  // Eq. (9)
 
-  const V delta_D = hn::Abs(difference.z);            // Eq. (4)
-  const V delta_d = hn::Abs(dot(gamma, p1 + p2));     // Eq. (7), since gamma.p1 > 0 > gamma.p2
+  const V delta_D = hn::Abs(difference.z);         // Eq. (4)
+  const V delta_d = hn::Abs(dot(gamma, p1 + p2));  // Eq. (7), since gamma.p1 > 0 > gamma.p2
   const V cos1 = dot(n1, l), cos2 = dot(n2, l);
   const V difference_of_cosines = hn::Sub(cos1, cos2);
   // Eq. (12): (1 - cos(a1 + a2))(1 - cos(a1 - a2)) is the same for angles of one plane.

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 
+#include "saliency/kernels.hpp"
 #include "saliency/level_planes.hpp"
 #include "saliency/row_scratch.hpp"
 #include "saliency/simd-inl.hpp"
@@ -23,9 +24,10 @@ HWY_INLINE void store_depth(V z, float* depth, float* inverse) {
 }
 
 /// Kernels::load_rows
-float load_rows(const cv::Mat1f& depth_mm, LevelPlanes& level, int begin, int end) {
+DepthRange load_rows(const cv::Mat1f& depth_mm, LevelPlanes& level, int begin, int end) {
   constexpr float kLargestMm = 65535;
-  V largest = zero();
+  const V eight = set(8.0f);
+  V largest = zero(), off_grid = zero();
   for (int r = begin; r < end; ++r) {
     float* depth = level.row(LevelPlanes::kDepth, r);
     float* inverse = level.row(LevelPlanes::kInverse, r);
@@ -34,10 +36,12 @@ float load_rows(const cv::Mat1f& depth_mm, LevelPlanes& level, int begin, int en
       const V z = hn::Load(kF, depth + c);
       const V valid = hn::IfThenElseZero(hn::And(hn::Gt(z, zero()), hn::Le(z, set(kLargestMm))), z);
       largest = hn::Max(largest, valid);
+      const V eighths = hn::Mul(valid, eight);
+      off_grid = hn::Max(off_grid, hn::Abs(hn::Sub(eighths, hn::Round(eighths))));
       store_depth(valid, depth + c, inverse + c);
     }
   }
-  return hn::GetLane(hn::MaxOfLanes(kF, largest));
+  return {hn::GetLane(hn::MaxOfLanes(kF, largest)), hn::GetLane(hn::MaxOfLanes(kF, off_grid)) == 0};
 }
 
 /// Position i of n, reflected at the ends without repeating them; n >= 3, i beyond by at most 2.
@@ -75,10 +79,13 @@ HWY_INLINE void filter_columns(const BinomialRows& window, int width, RowScratch
   }
 }
 
-/// Puts the reflected columns -2, -1, width and width + 1 beside a row that is split in even and odd ones.
+/// Column c of a row that is split in even and odd ones.
+inline double& split_column(double* even, double* odd, int c) { return c & 1 ? odd[c >> 1] : even[c >> 1]; }
+
+/// Puts the reflected columns -2, -1, width and width + 1 beside such a row.
 inline void reflect_ends(double* even, double* odd, int width) {
-  const auto column = [&](int c) -> double& { return (c & 1 ? odd : even)[c >> 1]; };
-  for (const int c : {-2, -1, width, width + 1}) column(c) = column(reflect(c, width));
+  const int beyond[] = {-2, -1, width, width + 1};
+  for (const int c : beyond) split_column(even, odd, c) = split_column(even, odd, reflect(c, width));
 }
 
 HWY_INLINE WideV filter_row(const double* even, const double* odd) {

@@ -116,12 +116,14 @@ PlaneSymmetry symmetry_of_plane(const Window& window, const Vector3d& p, const V
   const Vector3d cross = n1.cross(n2);
   result.omega_1 = cross.isZero(0) ? 0 : cross.normalized().cross(l).norm();
 
-  const double a1 = std::acos(std::clamp(n1.dot(l), -1.0, 1.0)),
-               a2 = std::acos(std::clamp(n2.dot(l), -1.0, 1.0));
+  result.cos_1 = n1.dot(l);
+  result.cos_2 = n2.dot(l);
+  const double a1 = std::acos(std::clamp(result.cos_1, -1.0, 1.0)),
+               a2 = std::acos(std::clamp(result.cos_2, -1.0, 1.0));
   result.omega_2 = (1 - std::cos(a1 + a2)) * (1 - std::cos(a1 - a2));  // Eq. (12)
 
   // Differs from Eq. (14), which as printed would also erase convex patches: the normals must lean away.
-  if (!(n1.dot(l) > 0 && n2.dot(l) < 0)) return result;
+  if (!(result.cos_1 > 0 && result.cos_2 < 0)) return result;
   result.score =
       std::exp(-(result.delta_D_mm + result.delta_d_mm) / lambda_mm) * result.omega_1 * result.omega_2;
   return result;  // Eqs. (3, 13)

@@ -38,6 +38,7 @@ struct PlaneSymmetry {
   double delta_d_mm = 0;  ///< Eq. (7)
   double omega_1 = 0;     ///< Eq. (8)
   double omega_2 = 0;     ///< Eq. (12)
+  double cos_1 = 0, cos_2 = 0;  ///< n'.l and n''.l; the gate of Eq. (14) is open if cos_1 > 0 > cos_2
 };
 
 /// The three planes of one pixel and the eigenvalues of its normals' covariance, ascending.

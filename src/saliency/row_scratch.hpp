@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 #include <hwy/aligned_allocator.h>
 
@@ -48,10 +49,22 @@ struct WindowSums {
 /// What the operator needs to know at each pixel of a row before it looks at single points.
 struct RowStatistics {
   enum Value {
-    kCovXX, kCovYY, kCovZZ, kCovXY, kCovXZ, kCovYZ,  ///< of the window's normals
-    kAxis0, kAxis1 = kAxis0 + 3, kAxis2 = kAxis1 + 3,  ///< x, y, z of its eigenvectors
+    kCovXX,
+    kCovYY,
+    kCovZZ,
+    kCovXY,
+    kCovXZ,
+    kCovYZ,  ///< of the window's normals
+    kAxis0,
+    kAxis1 = kAxis0 + 3,
+    kAxis2 = kAxis1 + 3,  ///< x, y, z of its eigenvectors
     kCount = kAxis2 + 3,  ///< sums over the window without its centre, as HalfSums has them
-    kZ, kZRows, kZCols, kNormalX, kNormalY, kNormalZ,
+    kZ,
+    kZRows,
+    kZCols,
+    kNormalX,
+    kNormalY,
+    kNormalZ,
     kValues
   };
   std::array<PaddedRow<float>, kValues> values;
@@ -62,28 +75,31 @@ struct RowStatistics {
 
 /// Memory of one worker; sized for the widest row and the largest window, and kept between frames.
 struct RowScratch {
+  static constexpr int kBandRows = 8;  ///< so many rows at most are given to Kernels::symmetry_rows at once
+
   RowScratch(int width, int reach)
       : columns(width),
         column_depth(width),
         boxes(width),
         whole_doubling(width),
         double_doubling(width),
-        statistics(width),
         halving(padded_rows<double, 4>(width)),
         upsampling(padded_rows<float, 2>(width)),
         sweep_terms(hwy::AllocateAligned<float>(static_cast<std::size_t>(3 * (2 * reach + 1) * 16))),
-        groups(hwy::AllocateAligned<int>(static_cast<std::size_t>(width + 16))) {}
+        groups(hwy::AllocateAligned<int>(static_cast<std::size_t>(width + 16))) {
+    for (int r = 0; r < kBandRows; ++r) statistics.emplace_back(width);
+  }
 
-  WindowSums columns;                          ///< sums of the window's rows in one column
-  PaddedRow<double> column_depth;              ///< of them, the sum of depths that kDepthRows belongs to
-  WindowSums boxes;                            ///< sums of the whole window
-  PaddedRow<std::int32_t> whole_doubling;      ///< for the sums of a row's neighbours
+  WindowSums columns;                      ///< sums of the window's rows in one column
+  PaddedRow<double> column_depth;          ///< of them, the sum of depths that kDepthRows belongs to
+  WindowSums boxes;                        ///< sums of the whole window
+  PaddedRow<std::int32_t> whole_doubling;  ///< for the sums of a row's neighbours
   PaddedRow<double> double_doubling;
-  RowStatistics statistics;
-  std::array<PaddedRow<double>, 4> halving;    ///< pyramid: depths and weights of even and of odd columns
-  std::array<PaddedRow<float>, 2> upsampling;  ///< master map
+  std::vector<RowStatistics> statistics;           ///< of each row of a band
+  std::array<PaddedRow<double>, 4> halving;        ///< pyramid: depths and weights of even and of odd columns
+  std::array<PaddedRow<float>, 2> upsampling;      ///< master map
   hwy::AlignedFreeUniquePtr<float[]> sweep_terms;  ///< the sweep: of each plane, a vector for each row
-  hwy::AlignedFreeUniquePtr<int[]> groups;     ///< first columns of the vectors that hold a point
+  hwy::AlignedFreeUniquePtr<int[]> groups;         ///< first columns of the vectors that hold a point
 };
 
 }  // namespace saccade

@@ -22,7 +22,7 @@ using V = hn::Vec<F>;
 using M = hn::Mask<F>;
 using Wide = hn::ScalableTag<double>;
 using WideV = hn::Vec<Wide>;
-using HalfF = hn::Rebind<float, Wide>;           // as many floats as there are doubles in a vector
+using HalfF = hn::Rebind<float, Wide>;  // as many floats as there are doubles in a vector
 using HalfWhole = hn::Rebind<std::int32_t, Wide>;
 using Whole = hn::Rebind<std::int32_t, F>;
 
@@ -59,9 +59,7 @@ HWY_INLINE Vec3 operator+(const Vec3& a, const Vec3& b) {
 HWY_INLINE Vec3 operator-(const Vec3& a, const Vec3& b) {
   return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
 }
-HWY_INLINE Vec3 operator*(const Vec3& a, V s) {
-  return {hn::Mul(a.x, s), hn::Mul(a.y, s), hn::Mul(a.z, s)};
-}
+HWY_INLINE Vec3 operator*(const Vec3& a, V s) { return {hn::Mul(a.x, s), hn::Mul(a.y, s), hn::Mul(a.z, s)}; }
 
 // Newton steps that bring the machine's estimates to nearly full precision: they have 8 bits on NEON, 12 on
 // SSE and AVX2, 14 on AVX-512. The fallback without SIMD divides.
@@ -90,6 +88,15 @@ HWY_INLINE V reciprocal_sqrt(V x) {
     y = hn::MulAdd(hn::Mul(y, residual), set(0.5f), y);
   }
   return y;
+}
+
+/// v, held in a register. Else compilers load a value anew for each of its uses, and loads that cross cache
+/// lines are what the inner loop has too many of.
+HWY_INLINE V in_register(V v) {
+#if HWY_ARCH_X86 && HWY_TARGET != HWY_SCALAR
+  asm("" : "+v"(v.raw));
+#endif
+  return v;
 }
 
 /// sum + v where m, else sum.

@@ -1,5 +1,5 @@
-// The inner loop: splits the points of a window by the candidate planes and sums the halves in front, Eq. (2).
-// Compiled once for each instruction set.
+// The inner loop: splits the points of a window by the candidate planes and sums the halves in front, Eq.
+// (2). Compiled once for each instruction set.
 #if defined(SACCADE_SALIENCY_SWEEP_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef SACCADE_SALIENCY_SWEEP_INL
 #undef SACCADE_SALIENCY_SWEEP_INL
@@ -22,6 +22,16 @@ struct Window {
   int first_row, last_row;  ///< relative to the centre
   int reach;
 };
+
+/// Whole numbers as floats, to be broadcast from memory: distances from the centre of a window.
+struct Numbers {
+  static constexpr int kLargest = 64;
+  float value[2 * kLargest + 1];
+  constexpr Numbers() : value() {
+    for (int i = 0; i <= 2 * kLargest; ++i) value[i] = static_cast<float>(i - kLargest);
+  }
+};
+constexpr Numbers kNumbers;
 
 /// Planes that are handled in one pass: all three where there are registers for their sums.
 #if HWY_TARGET <= HWY_AVX3 || HWY_ARCH_ARM_A64
@@ -59,11 +69,14 @@ HWY_INLINE void sum_in_front(const LevelPlanes& level, std::ptrdiff_t at, const 
     per_col[i] = hn::Mul(gamma[i].x, set(-centres.inverse_fx));
     const V per_row = hn::Mul(gamma[i].y, set(centres.inverse_fy));
     for (int v = 0; v < rows; ++v)
-      hn::Store(hn::Mul(per_row, set(static_cast<float>(window.first_row + v))), kF,
+      hn::Store(hn::Mul(per_row, set(kNumbers.value[window.first_row + v + kNumbers.kLargest])), kF,
                 terms + (v * kCount + i) * kLanes);
-    sums[i] = {zero(), zero(), zero(), zero(), {zero(), zero(), zero()}};
+    sums[i].count = sums[i].z = sums[i].z_cols = zero();
   }
 
+  // Sums that change with every point are variables of their own, so that they stay in registers.
+  V z_rows[kCount], sum_x[kCount], sum_y[kCount], sum_z[kCount];
+  for (int i = 0; i < kCount; ++i) z_rows[i] = sum_x[i] = sum_y[i] = sum_z[i] = zero();
   for (int dc = -window.reach; dc <= window.reach; ++dc) {
     const V col = set(static_cast<float>(dc));
     V threshold[kCount];
@@ -74,18 +87,22 @@ HWY_INLINE void sum_in_front(const LevelPlanes& level, std::ptrdiff_t at, const 
       for (int i = 0; i < kCount; ++i) counted[i] = zero();
       std::ptrdiff_t j = (window.first_row + begin) * stride + dc;
       const float* term = terms + begin * kCount * kLanes;
-      for (int v = begin; v < end; ++v, j += stride, term += kCount * kLanes) {
-        const V z = load(depth + j), p = load(packed + j);
+      const float* row = kNumbers.value + kNumbers.kLargest + window.first_row + begin;
+      const float* const last = kNumbers.value + kNumbers.kLargest + window.first_row + end;
+      for (; row != last; ++row, j += stride, term += kCount * kLanes) {
+        const V z = in_register(load(depth + j)), p = in_register(load(packed + j));
         const V q = hn::Mul(hn::Sub(z, z0), load(inverse + j));
-        const V nx = load(normal_x + j), ny = load(normal_y + j), nz = load(normal_z + j);
-        const V row = set(static_cast<float>(window.first_row + v));
+        const V nx = in_register(load(normal_x + j)), ny = in_register(load(normal_y + j)),
+                nz = in_register(load(normal_z + j));
+        const V dr = set(*row);
         for (int i = 0; i < kCount; ++i) {
-          const M front = hn::Gt(hn::MulAdd(along_ray[i], q, hn::Load(kF, term + i * kLanes)), threshold[i]);  // Eq. (2)
+          const V side = hn::MulAdd(along_ray[i], q, hn::Load(kF, term + i * kLanes));
+          const M front = hn::Gt(side, threshold[i]);  // Eq. (2)
           counted[i] = add_where(front, p, counted[i]);
-          sums[i].z_rows = mul_add_where(front, z, row, sums[i].z_rows);
-          sums[i].normal.x = add_where(front, nx, sums[i].normal.x);
-          sums[i].normal.y = add_where(front, ny, sums[i].normal.y);
-          sums[i].normal.z = add_where(front, nz, sums[i].normal.z);
+          z_rows[i] = mul_add_where(front, z, dr, z_rows[i]);
+          sum_x[i] = add_where(front, nx, sum_x[i]);
+          sum_y[i] = add_where(front, ny, sum_y[i]);
+          sum_z[i] = add_where(front, nz, sum_z[i]);
         }
       }
       for (int i = 0; i < kCount; ++i) {
@@ -97,10 +114,12 @@ HWY_INLINE void sum_in_front(const LevelPlanes& level, std::ptrdiff_t at, const 
       }
     }
   }
-  const V mm = set(1 / DepthPacking::kUnitsPerMm);
+  const V mm = set(1 / level.packing.units_per_mm);
   for (int i = 0; i < kCount; ++i) {
     sums[i].z = hn::Mul(sums[i].z, mm);
     sums[i].z_cols = hn::Mul(sums[i].z_cols, mm);
+    sums[i].z_rows = z_rows[i];
+    sums[i].normal = {sum_x[i], sum_y[i], sum_z[i]};
   }
 }
 

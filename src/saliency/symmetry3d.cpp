@@ -14,7 +14,7 @@ namespace saccade {
 namespace {
 
 // Rows that one worker takes at a time. They are the same for any number of workers, and with them every bit.
-constexpr int kRowsOfPoints = 16, kRowsOfSymmetry = 8;
+constexpr int kRowsOfPoints = 16, kRowsOfSymmetry = RowScratch::kBandRows;
 
 struct Band {
   int level, begin, end;  // rows
@@ -41,8 +41,8 @@ struct Symmetry3d::State {
   std::vector<RowScratch> scratch;  // of each worker
   std::vector<Band> point_bands;    // of levels first_level..last_level
   std::vector<Band> symmetry_bands;
-  std::vector<float> largest_mm;    // of each band of level 0
-  std::vector<float> weights;       // of each level in the master map
+  std::vector<DepthRange> ranges;  // of each band of level 0
+  std::vector<float> weights;      // of each level in the master map
 
   State(const Symmetry3dParams& p, WorkerPool& workers, const std::string& simd)
       : params(p), pool(workers), kernels(choose_kernels(simd)) {}
@@ -68,7 +68,7 @@ void Symmetry3d::State::resize(cv::Size new_size) {
   for (int w = 0; w < pool.workers(); ++w) scratch.emplace_back(size.width, reach);
   point_bands = bands_of(levels, params.first_level, kRowsOfPoints);
   symmetry_bands = bands_of(levels, params.first_level, kRowsOfSymmetry);
-  largest_mm.assign(static_cast<std::size_t>((size.height + kRowsOfPoints - 1) / kRowsOfPoints), 0);
+  ranges.resize(static_cast<std::size_t>((size.height + kRowsOfPoints - 1) / kRowsOfPoints));
   weights.assign(levels.size(), 0);
 }
 
@@ -77,8 +77,8 @@ template <typename Job>
 void Symmetry3d::State::for_bands_of(int level, Job job) {
   const int height = levels[static_cast<std::size_t>(level)].height();
   const auto band = [&](int b, int worker) {
-    job(b * kRowsOfPoints, std::min((b + 1) * kRowsOfPoints, height), scratch[static_cast<std::size_t>(worker)],
-        b);
+    job(b * kRowsOfPoints, std::min((b + 1) * kRowsOfPoints, height),
+        scratch[static_cast<std::size_t>(worker)], b);
   };
   pool.for_each((height + kRowsOfPoints - 1) / kRowsOfPoints, std::ref(band));
 }
@@ -86,12 +86,16 @@ void Symmetry3d::State::for_bands_of(int level, Job job) {
 // SPEC 1.1 and 1.2
 void Symmetry3d::State::load_pyramid(const cv::Mat1f& depth_mm, const Intrinsics& camera) {
   for_bands_of(0, [&](int begin, int end, RowScratch&, int b) {
-    largest_mm[static_cast<std::size_t>(b)] = kernels.load_rows(depth_mm, levels[0], begin, end);
+    ranges[static_cast<std::size_t>(b)] = kernels.load_rows(depth_mm, levels[0], begin, end);
   });
-  const float largest = *std::max_element(largest_mm.begin(), largest_mm.end());
+  DepthRange all;
+  for (const DepthRange& range : ranges) {
+    all.largest_mm = std::max(all.largest_mm, range.largest_mm);
+    all.multiples_of_eighths = all.multiples_of_eighths && range.multiples_of_eighths;
+  }
   for (std::size_t l = 0; l < levels.size(); ++l) {
     levels[l].camera = camera.at_level(static_cast<int>(l));
-    levels[l].packing = DepthPacking::for_depths_up_to(largest);
+    levels[l].packing = DepthPacking::for_depths(all.largest_mm, l > 0 || all.multiples_of_eighths);
     if (l > 0)
       for_bands_of(static_cast<int>(l), [&](int begin, int end, RowScratch& memory, int) {
         kernels.halve_rows(levels[l - 1], levels[l], begin, end, memory);
@@ -107,7 +111,8 @@ void Symmetry3d::State::find_points(bool normals_wanted) {
   };
   pool.for_each(static_cast<int>(point_bands.size()), std::ref(job));
   if (normals_wanted && params.first_level > 0)
-    for_bands_of(0, [&](int begin, int end, RowScratch&, int) { kernels.normal_rows(levels[0], begin, end); });
+    for_bands_of(0,
+                 [&](int begin, int end, RowScratch&, int) { kernels.normal_rows(levels[0], begin, end); });
 }
 
 // Section 2 of SPEC. Large levels come first, so that the small ones fill the gaps at the end.
@@ -162,7 +167,8 @@ Symmetry3d::~Symmetry3d() = default;
 
 void Symmetry3d::compute(const cv::Mat1f& depth_mm, const Intrinsics& camera, SaliencyWants wants,
                          SaliencyMaps& maps, StageTimes& times) {
-  if (!camera.valid()) throw std::invalid_argument("Symmetry3d: intrinsics must be finite, focal lengths above 0");
+  if (!camera.valid())
+    throw std::invalid_argument("Symmetry3d: intrinsics must be finite, focal lengths above 0");
   State& state = *state_;
   state.resize(depth_mm.size());
   {

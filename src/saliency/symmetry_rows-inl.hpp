@@ -32,12 +32,15 @@ HWY_INLINE Centres centres_at(const LevelPlanes& level, const Symmetry3dParams& 
 }
 
 /// Section 2 of SPEC at one vector of pixels: the best of the three planes, Eqs. (3, 13).
-HWY_INLINE V symmetry_at(const LevelPlanes& level, const Symmetry3dParams& params, const Window& window, int row,
-                         int col, RowScratch& scratch) {
+HWY_INLINE V symmetry_at(const LevelPlanes& level, const Symmetry3dParams& params, const Window& window,
+                         int row, int col, RowStatistics& statistics, float* terms) {
   using S = RowStatistics;
-  const auto get = [&](int value) HWY_ATTR { return hn::Load(kF, scratch.statistics.row(value) + col); };
+  const auto get = [&](int value) HWY_ATTR { return hn::Load(kF, statistics.row(value) + col); };
   const Centres centres = centres_at(level, params, row, col);
-  const HalfSums all{get(S::kCount), get(S::kZ), get(S::kZRows), get(S::kZCols),
+  const HalfSums all{get(S::kCount),
+                     get(S::kZ),
+                     get(S::kZRows),
+                     get(S::kZCols),
                      {get(S::kNormalX), get(S::kNormalY), get(S::kNormalZ)}};
   V best = zero();
   for (int first = 0; first < 3; first += kPlanesPerPass) {
@@ -47,8 +50,7 @@ HWY_INLINE V symmetry_at(const LevelPlanes& level, const Symmetry3dParams& param
       gamma[i] = {get(axis), get(axis + 1), get(axis + 2)};
     }
     HalfSums front[kPlanesPerPass];
-    sum_in_front<kPlanesPerPass>(level, level.at(row, col), window, centres, gamma, scratch.sweep_terms.get(),
-                                 front);
+    sum_in_front<kPlanesPerPass>(level, level.at(row, col), window, centres, gamma, terms, front);
     for (int i = 0; i < kPlanesPerPass; ++i)
       best = hn::Max(best, plane_score(centres, gamma[i], front[i], all));
   }
@@ -56,42 +58,48 @@ HWY_INLINE V symmetry_at(const LevelPlanes& level, const Symmetry3dParams& param
   return hn::IfThenElseZero(hn::Gt(usable, zero()), best);
 }
 
-/// Columns of the vectors of row r that hold a point; the others' scores become 0.
-HWY_INLINE int find_groups(LevelPlanes& level, int r, int* columns) {
-  const float* packed = level.row(LevelPlanes::kPacked, r);
-  float* score = level.row(LevelPlanes::kScore, r);
-  int count = 0;
-  for (int c = 0; c < level.width(); c += kLanes) {
-    if (hn::AllFalse(kF, hn::Gt(hn::Load(kF, packed + c), zero())))
-      hn::Store(zero(), kF, score + c);
-    else
-      columns[count++] = c;
-  }
-  return count;
+HWY_INLINE bool holds_a_point(const LevelPlanes& level, int row, int col) {
+  const V packed = hn::Load(kF, level.row(LevelPlanes::kPacked, row) + col);
+  return !hn::AllFalse(kF, hn::Gt(packed, zero()));
 }
 
-/// Kernels::symmetry_rows
-void symmetry_rows(LevelPlanes& level, const Symmetry3dParams& params, int begin, int end, RowScratch& scratch) {
-  const DenormalsAreZero denormals;
+/// Everything of row r that is needed before single points are looked at.
+HWY_INLINE void prepare_row(const LevelPlanes& level, int r, int reach, bool first, RowStatistics& statistics,
+                            RowScratch& scratch) {
   constexpr int kTogether = 3;
-  const int reach = params.kernel / 2;
+  slide_column_sums(level, r, reach, first, scratch);
   int* columns = scratch.groups.get();
-  for (int r = begin; r < end; ++r) {
-    slide_column_sums(level, r, reach, r == begin, scratch);
-    const int groups = find_groups(level, r, columns);
-    if (groups == 0) continue;
-    sum_boxes(level.width(), reach, scratch);
-    window_statistics(level, r, reach, scratch);
-    int g = 0;
-    for (; g + kTogether <= groups; g += kTogether)
-      gaussian_image_axes<kTogether>(columns + g, scratch.statistics);
-    for (; g < groups; ++g) gaussian_image_axes<1>(columns + g, scratch.statistics);
+  int groups = 0;
+  for (int c = 0; c < level.width(); c += kLanes)
+    if (holds_a_point(level, r, c)) columns[groups++] = c;
+  if (groups == 0) return;
+  sum_boxes(level.width(), reach, scratch);
+  window_statistics(level, r, reach, scratch.boxes, statistics);
+  int g = 0;
+  for (; g + kTogether <= groups; g += kTogether) gaussian_image_axes<kTogether>(columns + g, statistics);
+  for (; g < groups; ++g) gaussian_image_axes<1>(columns + g, statistics);
+}
 
-    const Window window{std::max(-reach, -r), std::min(reach, level.height() - 1 - r), reach};
-    for (g = 0; g < groups; ++g)
-      hn::Store(symmetry_at(level, params, window, r, columns[g], scratch), kF,
-                level.row(LevelPlanes::kScore, r) + columns[g]);
-  }
+/// Kernels::symmetry_rows. The rows of a band are prepared first; then it goes column by column, so that the
+/// points of a window stay in the nearest cache for the windows below.
+void symmetry_rows(LevelPlanes& level, const Symmetry3dParams& params, int begin, int end,
+                   RowScratch& scratch) {
+  const DenormalsAreZero denormals;
+  const int reach = params.kernel / 2;
+  for (int r = begin; r < end; ++r)
+    prepare_row(level, r, reach, r == begin, scratch.statistics[static_cast<std::size_t>(r - begin)],
+                scratch);
+  for (int c = 0; c < level.width(); c += kLanes)
+    for (int r = begin; r < end; ++r) {
+      V score = zero();
+      if (holds_a_point(level, r, c)) {
+        const Window window{std::max(-reach, -r), std::min(reach, level.height() - 1 - r), reach};
+        score =
+            symmetry_at(level, params, window, r, c, scratch.statistics[static_cast<std::size_t>(r - begin)],
+                        scratch.sweep_terms.get());
+      }
+      hn::Store(score, kF, level.row(LevelPlanes::kScore, r) + c);
+    }
 }
 
 }  // namespace HWY_NAMESPACE

@@ -29,7 +29,8 @@ HWY_INLINE void accumulate(std::int32_t* sum, V value, float sign) {
   hn::Store(sign > 0 ? hn::Add(old, whole) : hn::Sub(old, whole), kWhole, sum);
 }
 
-/// Adds (sign = 1) or takes away (-1) row r, which lies `dr` rows from the centre, to the sums of each column.
+/// Adds (sign = 1) or takes away (-1) row r, which lies `dr` rows from the centre, to the sums of each
+/// column.
 HWY_INLINE void accumulate_row(const LevelPlanes& level, int r, int dr, float sign, float unit,
                                WindowSums& columns, double* depth) {
   const float* nx = level.row(LevelPlanes::kNormalX, r);
@@ -60,16 +61,17 @@ HWY_INLINE void accumulate_row(const LevelPlanes& level, int r, int dr, float si
   for (int c = 0; c < level.width(); c += kWideLanes) {
     const WideV p = hn::PromoteTo(kWide, hn::Load(kHalfF, packed + c));
     const auto usable = hn::Gt(p, none);
-    const WideV z8 = hn::IfThenElseZero(usable, hn::Sub(p, count_unit));
+    const WideV z_units = hn::IfThenElseZero(usable, hn::Sub(p, count_unit));
     const WideV z = hn::IfThenElseZero(usable, hn::PromoteTo(kWide, hn::Load(kHalfF, exact + c)));
-    hn::Store(hn::MulAdd(factor, z8, hn::Load(kWide, rounded_sum + c)), kWide, rounded_sum + c);
+    hn::Store(hn::MulAdd(factor, z_units, hn::Load(kWide, rounded_sum + c)), kWide, rounded_sum + c);
     hn::Store(hn::MulAdd(factor, z, hn::Load(kWide, depth + c)), kWide, depth + c);
     hn::Store(hn::MulAdd(row_factor, z, hn::Load(kWide, rows_sum + c)), kWide, rows_sum + c);
   }
 }
 
 /// The sums of each column of the window of row r; `first` if those of row r - 1 are not there.
-HWY_INLINE void slide_column_sums(const LevelPlanes& level, int r, int reach, bool first, RowScratch& scratch) {
+HWY_INLINE void slide_column_sums(const LevelPlanes& level, int r, int reach, bool first,
+                                  RowScratch& scratch) {
   const float unit = static_cast<float>(1 << normal_bits(reach));
   WindowSums& columns = scratch.columns;
   double* depth = scratch.column_depth.data();
@@ -90,8 +92,9 @@ HWY_INLINE void slide_column_sums(const LevelPlanes& level, int r, int reach, bo
   if (r + reach < level.height()) accumulate_row(level, r + reach, reach, 1, unit, columns, depth);
 }
 
-/// box[c] = sum of row[c - reach .. c + reach] for every column, by doubling: sums of 1, 2, 4, ... neighbours,
-/// of which those are added that make up the width. `row` holds 0 in its margins; `power` is scratch.
+/// box[c] = sum of row[c - reach .. c + reach] for every column, by doubling: sums of 1, 2, 4, ...
+/// neighbours, of which those are added that make up the width. `row` holds 0 in its margins; `power` is
+/// scratch.
 template <typename T>
 HWY_INLINE void sum_neighbours(const T* row, T* power, T* box, int width, int reach) {
   const hn::ScalableTag<T> tag;

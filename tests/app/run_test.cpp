@@ -1,6 +1,7 @@
 // `saccade run` as a user starts it: what it writes.
 
 #include <cmath>
+#include <set>
 #include <sstream>
 
 #include <gmock/gmock.h>
@@ -123,6 +124,10 @@ TEST_F(RunTest, DumpsWhatIsAskedFor) {
   EXPECT_NEAR(cv::norm(z_y_x), 1, 1e-4);
   EXPECT_LT(z_y_x[0], 0) << "towards the camera";
   EXPECT_LT(z_y_x[1], -0.4F) << "upwards";
+  run("labels", {"--dump", "labels", "--frames", "1"});
+  const cv::Mat labels = cv::imread(in("labels/000000_labels.png"), cv::IMREAD_UNCHANGED);
+  EXPECT_EQ(labels.type(), CV_16UC1);
+  EXPECT_GT(cv::countNonZero(labels), 100);
   run("none", {"--dump", "none"});
   EXPECT_EQ(files("none"), (std::set<std::string>{"fixations.jsonl", "manifest.json"}));
 }
@@ -156,7 +161,9 @@ TEST_F(RunTest, PaperConfigRunsTheNetwork) {
   const Outcome outcome = run_saccade({"run", "synthetic:table?frames=1", "--out", in("out"), "--config",
                                        SACCADE_SOURCE_DIR "/config/paper.toml", "--dump", "none"});
   EXPECT_EQ(outcome.status, 0) << outcome.err;
-  for (const json& f : lines("out/fixations.jsonl")[0]["fixations"]) EXPECT_EQ(f["row"].get<int>() % 16, 8);
+  const json frame = lines("out/fixations.jsonl")[0];
+  ASSERT_FALSE(frame["fixations"].empty());
+  for (const json& f : frame["fixations"]) EXPECT_EQ(f["row"].get<int>() % 16, 8);
 }
 
 TEST_F(RunTest, UnusableFramesAreRejectedAndTheRestIsProcessed) {
@@ -181,6 +188,46 @@ TEST_F(RunTest, DepthWithoutAnyReadingGivesAZeroMapAndNoFixations) {
     EXPECT_TRUE(frame["fixations"].empty());
     EXPECT_FALSE(frame["ended_early"].get<std::string>().empty());
   }
+}
+
+// The whole chain as ./run shows it: recording, operator, attention; each of the first points is on another
+// object.
+TEST_F(RunTest, TheBundledRecordingsObjectsAreFoundOneByOne) {
+  const std::string recordings = SACCADE_SOURCE_DIR "/recordings/";
+  const Outcome outcome =
+      run_saccade({"run", recordings + "table.oni", "--out", in("out"), "--dump", "none"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const auto frames = lines("out/fixations.jsonl");
+  ASSERT_EQ(frames.size(), 16U);
+  double hits = 0, possible = 0;
+  for (const json& frame : frames) {
+    const auto name = std::to_string(frame["frame"].get<int>() + 10000).substr(1) + "_label.png";
+    const cv::Mat labels = decode_png(read_file(recordings + "table_labels/" + name));
+    std::set<int> present, found;
+    for (int r = 0; r < labels.rows; ++r)
+      for (int c = 0; c < labels.cols; ++c) present.insert(labels.at<std::uint16_t>(r, c));
+    present.erase(0);
+    for (std::size_t i = 0; i < present.size(); ++i)
+      found.insert(labels.at<std::uint16_t>(frame["fixations"][i]["row"].get<int>(),
+                                            frame["fixations"][i]["col"].get<int>()));
+    found.erase(0);
+    hits += static_cast<double>(found.size());
+    possible += static_cast<double>(present.size());
+  }
+  EXPECT_GE(hits / possible, 0.9);
+}
+
+TEST_F(RunTest, BenchTellsWhatThisMachineSustains) {
+  const Outcome outcome =
+      run_saccade({"bench", "--json", "--seconds", "0", "--kernel", "5", "--levels", "0..1"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const json report = json::parse(outcome.out);
+  ASSERT_EQ(report["sizes"].size(), 4U);
+  for (const json& size : report["sizes"]) {
+    EXPECT_GE(size["frame_p95_ms"], size["frame_p50_ms"]);
+    EXPECT_TRUE(size["sustains"]["30 Hz"].is_boolean());
+  }
+  EXPECT_GT(report["sizes"][1]["reference_ratio"], 1);
 }
 
 TEST_F(RunTest, InterruptingLeavesWholeFilesAndSaysSo) {

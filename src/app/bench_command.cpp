@@ -1,0 +1,156 @@
+#include "app/bench_command.hpp"
+
+#include <array>
+#include <chrono>
+#include <cstdio>
+#include <memory>
+#include <vector>
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+#include <nlohmann/json.hpp>
+#include <opencv2/core.hpp>
+
+#include "app/options.hpp"
+#include "core/error.hpp"
+#include "drivers/synthetic_source.hpp"
+#include "pipeline/processor.hpp"
+#include "pipeline/stage_statistics.hpp"
+#include "saliency/kernels.hpp"
+#include "saliency/reference.hpp"
+
+namespace saccade {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double milliseconds_since(Clock::time_point begin) {
+  return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
+}
+
+/// A size that depth sensors have, and the frame rates they have it at.
+struct SensorSize {
+  cv::Size size;
+  std::vector<int> rates_hz;
+};
+
+const std::array<SensorSize, 4> kSensorSizes = {
+    {{{320, 240}, {30, 60}}, {{640, 480}, {30, 60}}, {{1280, 1024}, {15, 30}}, {{1920, 1080}, {15, 30}}}};
+
+struct Measurement {
+  SensorSize sensor;
+  StageStatistics stages;
+  DurationHistogram frame;  ///< from depth to fixations
+  double reference_ms = 0;  ///< the same map by the reference; 0 = not measured
+};
+
+Frame table_frame(cv::Size size) {
+  SyntheticSource source(
+      fmt::format("synthetic:table?seed=1&noise=kinect&frames=1&size={}x{}", size.width, size.height));
+  Frame frame;
+  source.read(frame, std::chrono::milliseconds(0));
+  return frame;
+}
+
+Measurement measure(const SensorSize& sensor, const Settings& settings, double seconds) {
+  constexpr int kLeastFrames = 5;
+  Measurement measurement;
+  measurement.sensor = sensor;
+  const auto processor = make_processor(settings);
+  Result result;
+  result.frame = table_frame(sensor.size);
+  processor->process(result);  // allocates
+  const auto begin = Clock::now();
+  while (measurement.frame.count() < kLeastFrames || milliseconds_since(begin) < 1000 * seconds) {
+    result.times = {};
+    const auto frame_begin = Clock::now();
+    processor->process(result);
+    measurement.frame.add(milliseconds_since(frame_begin));
+    measurement.stages.add(result.times);
+  }
+  if (sensor.size == cv::Size(640, 480) && settings.model == "symmetry3d") {
+    const auto reference_begin = Clock::now();
+    reference::symmetry3d(result.frame.depth_mm, result.frame.intrinsics, Symmetry3dParams::from(settings));
+    measurement.reference_ms = milliseconds_since(reference_begin);
+  }
+  return measurement;
+}
+
+double map_ms(const Measurement& m) {
+  return m.stages[Stage::points].percentile_ms(0.5) + m.stages[Stage::symmetry].percentile_ms(0.5) +
+         m.stages[Stage::master_map].percentile_ms(0.5);
+}
+
+bool sustains(const Measurement& m, int rate_hz) { return m.frame.percentile_ms(0.95) * rate_hz < 1000; }
+
+nlohmann::ordered_json as_json(const Measurement& m) {
+  nlohmann::ordered_json json = {{"width", m.sensor.size.width},
+                                 {"height", m.sensor.size.height},
+                                 {"frames", m.frame.count()},
+                                 {"map_ms", map_ms(m)},
+                                 {"attention_ms", m.stages[Stage::attention].percentile_ms(0.5)},
+                                 {"frame_p50_ms", m.frame.percentile_ms(0.5)},
+                                 {"frame_p95_ms", m.frame.percentile_ms(0.95)}};
+  for (const int rate : m.sensor.rates_hz) json["sustains"][fmt::format("{} Hz", rate)] = sustains(m, rate);
+  if (m.reference_ms > 0) json["reference_ratio"] = m.reference_ms / map_ms(m);
+  return json;
+}
+
+void print(const Measurement& m) {
+  std::string modes;
+  for (const int rate : m.sensor.rates_hz)
+    modes += fmt::format("{}{} Hz {}", modes.empty() ? "" : ", ", rate, sustains(m, rate) ? "yes" : "no");
+  fmt::print("{:>4}x{:<4}  {:8.2f}  {:9.2f}  {:8.2f}  {:8.1f}   {}\n", m.sensor.size.width,
+             m.sensor.size.height, map_ms(m), m.stages[Stage::attention].percentile_ms(0.5),
+             m.frame.percentile_ms(0.95), 1000 / m.frame.percentile_ms(0.5), modes);
+  if (m.reference_ms > 0)
+    fmt::print(
+        "           the map is {:.0f} times faster than the reference, one thread, scalar ({:.0f} ms)\n",
+        m.reference_ms / map_ms(m), m.reference_ms);
+  std::fflush(stdout);
+}
+
+}  // namespace
+
+void bench(const Settings& settings, double seconds) {
+  cv::setNumThreads(1);
+  const std::string_view instructions = choose_kernels(settings.simd).name;
+  const int workers = worker_count(settings);
+  const cv::Size largest = kSensorSizes.back().size;
+  check_levels(largest, Symmetry3dParams::from(settings));
+  if (!settings.json)
+    fmt::print(
+        "{}, k = {}, levels {}..{}, {} worker{}, {}\n     size    map ms  points ms    p95 ms  frames/s   "
+        "sustains\n",
+        settings.model, settings.kernel, settings.first_level, settings.last_level, workers,
+        workers == 1 ? "" : "s", instructions);
+  nlohmann::ordered_json json = {{"model", settings.model},
+                                 {"kernel", settings.kernel},
+                                 {"workers", workers},
+                                 {"simd", instructions},
+                                 {"sizes", nlohmann::ordered_json::array()}};
+  for (const SensorSize& sensor : kSensorSizes) {
+    const cv::Size last = level_size(sensor.size, settings.last_level);
+    if (std::min(last.width, last.height) < 8) continue;  // too small for these levels
+    const Measurement measurement = measure(sensor, settings, seconds);
+    if (settings.json)
+      json["sizes"].push_back(as_json(measurement));
+    else
+      print(measurement);
+  }
+  if (settings.json) fmt::print("{}\n", json.dump());
+}
+
+void add_bench_command(CLI::App& app, std::function<void()>& action) {
+  CLI::App& command =
+      *app.add_subcommand("bench", "measure this machine: which sensor modes it keeps up with");
+  const auto seconds = std::make_shared<double>(2);
+  command.add_option("--seconds", *seconds, "time spent on each image size [2]")
+      ->type_name("S")
+      ->check(CLI::Range(0.0, 3600.0));
+  const auto options = std::make_shared<SettingsOptions>(command);
+  command.callback(
+      [options, seconds, &action] { action = [options, seconds] { bench(options->resolve(), *seconds); }; });
+}
+
+}  // namespace saccade

@@ -1,0 +1,144 @@
+#include "oni/codec_16z.hpp"
+
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "reference_16z.hpp"
+
+namespace saccade {
+namespace {
+
+using Pixels = std::vector<std::uint16_t>;
+using Bytes = std::vector<std::uint8_t>;
+using Random = std::independent_bits_engine<std::mt19937, 32, unsigned>;
+
+Bytes encode(Codec16z codec, const Pixels& pixels) {
+  Bytes payload;
+  Encoder16z encoder;
+  EXPECT_TRUE(encoder.encode(codec, pixels, payload));
+  return payload;
+}
+
+// The fast decoder and the reference agree on everything: what is whole, and on all pixels.
+void expect_as_reference(Codec16z codec, const Bytes& payload, std::size_t room) {
+  Pixels pixels(room);
+  Decoder16z decoder;
+  const Decoded16z decoded = decoder.decode(codec, payload, pixels);
+  const auto reference = reference_16z(payload, codec == Codec16z::table, room);
+  ASSERT_EQ(decoded.fault == nullptr, reference.has_value()) << (decoded.fault ? decoded.fault : "whole");
+  if (!reference) return;
+  pixels.resize(decoded.pixels);
+  ASSERT_EQ(pixels, *reference);
+}
+
+void expect_round_trip(Codec16z codec, const Pixels& pixels) {
+  const Bytes payload = encode(codec, pixels);
+  EXPECT_LE(payload.size(), max_size_16z(pixels.size()));
+  EXPECT_TRUE(may_hold_16z(payload.size(), pixels.size()));
+  const auto reference = reference_16z(payload, codec == Codec16z::table, pixels.size());
+  ASSERT_TRUE(reference.has_value());
+  ASSERT_EQ(*reference, pixels);
+  expect_as_reference(codec, payload, pixels.size());
+}
+
+TEST(Codec16z, CodesTheTinySampleWithTheRightEnd) {
+  // 0,0,0,810 / 0,811,811,811 in the table 0, 810, 811 would end in 57 E1 4D: the run before the last nibble.
+  const Bytes expected = {3, 0, 0, 0, 0x2a, 3, 0x2b, 3, 0, 0, 0xe1, 0x57, 0xe1, 0x4d};
+  EXPECT_EQ(encode(Codec16z::table, {0, 0, 0, 810, 0, 0, 0, 811}), expected);
+}
+
+TEST(Codec16z, DecodesWhatTheStockEncoderWrites) {
+  // The stock encoder puts the last nibble before the run; that is how the pixels then are.
+  const Bytes stock = {3, 0, 0, 0, 0x2a, 3, 0x2b, 3, 0, 0, 0xe1, 0x57, 0x4d, 0xe1};
+  Pixels pixels(8);
+  Decoder16z decoder;
+  const Decoded16z decoded = decoder.decode(Codec16z::table, stock, pixels);
+  EXPECT_EQ(decoded.fault, nullptr);
+  EXPECT_EQ(pixels, (Pixels{0, 0, 0, 810, 0, 811, 811, 811}));
+}
+
+TEST(Codec16z, RoundTripsRandomSequencesOfAllKinds) {
+  Random random(1);
+  for (int round = 0; round < 3000; ++round) {
+    const std::size_t count = 1 + random() % 300;
+    const unsigned values = 1 + random() % 400, step = 1 + random() % 150, stay = random() % 100;
+    Pixels pixels(count);
+    unsigned value = random() % 10000;
+    for (auto& pixel : pixels) {
+      if (random() % 100 >= stay) value = (value + random() % step) % (values * 20);
+      pixel = static_cast<std::uint16_t>(value);
+    }
+    expect_round_trip(Codec16z::plain, pixels);
+    expect_round_trip(Codec16z::table, pixels);
+  }
+}
+
+TEST(Codec16z, RoundTripsEveryLengthOfRunAtEveryPlace) {
+  for (std::size_t before = 0; before < 4; ++before)
+    for (std::size_t run = 1; run < 70; ++run)
+      for (const int end : {0, 1, 6, 7, 63, 64, 500}) {
+        Pixels pixels(before, 1000);
+        pixels.insert(pixels.end(), run, 1003);
+        pixels.push_back(static_cast<std::uint16_t>(1003 + end));
+        expect_round_trip(Codec16z::plain, pixels);
+        expect_round_trip(Codec16z::table, pixels);
+      }
+}
+
+TEST(Codec16z, TableHoldsAnyValueUpTo65535) {
+  Random random(2);
+  Pixels pixels(20000);
+  for (auto& pixel : pixels) pixel = static_cast<std::uint16_t>(random());
+  pixels.front() = 65535;
+  pixels.back() = 0;
+  expect_round_trip(Codec16z::table, pixels);
+}
+
+TEST(Codec16z, RefusesWhatTheFormatCannotHold) {
+  Encoder16z encoder;
+  Bytes payload = {7};
+  EXPECT_FALSE(encoder.encode(Codec16z::plain, Pixels{0, 40000}, payload));
+  EXPECT_EQ(payload, Bytes{7}) << "nothing may be appended";
+  EXPECT_TRUE(encoder.encode(Codec16z::plain, Pixels{40000, 40001, 39999}, payload))
+      << "small steps up there are fine";
+  Pixels all(65536);
+  for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<std::uint16_t>(i * 40503);
+  EXPECT_FALSE(encoder.encode(Codec16z::table, all, payload));
+  EXPECT_THROW(encoder.encode(Codec16z::table, {}, payload), std::invalid_argument);
+}
+
+TEST(Codec16z, AgreesWithTheReferenceOnGarbage) {
+  Random random(3);
+  for (int round = 0; round < 20000; ++round) {
+    Bytes payload(random() % 80);
+    for (auto& byte : payload) byte = static_cast<std::uint8_t>(random());
+    const bool table = random() % 2 == 0;
+    if (table && payload.size() >= 2) {  // a table that fits, so that the symbols are reached
+      payload[0] = static_cast<std::uint8_t>(random() % 20);
+      payload[1] = 0;
+    }
+    expect_as_reference(table ? Codec16z::table : Codec16z::plain, payload, random() % 600);
+  }
+}
+
+TEST(Codec16z, AgreesWithTheReferenceOnDamagedFrames) {
+  Random random(4);
+  Pixels pixels(640);
+  for (std::size_t i = 0; i < pixels.size(); ++i)
+    pixels[i] = static_cast<std::uint16_t>(i % 97 < 40 ? 0 : 900 + i * 3);
+  for (const Codec16z codec : {Codec16z::plain, Codec16z::table}) {
+    const Bytes whole = encode(codec, pixels);
+    for (std::size_t cut = 0; cut < whole.size(); ++cut)
+      expect_as_reference(codec, Bytes(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(cut)),
+                          pixels.size());
+    for (int round = 0; round < 5000; ++round) {
+      Bytes damaged = whole;
+      damaged[random() % damaged.size()] = static_cast<std::uint8_t>(random());
+      expect_as_reference(codec, damaged, pixels.size());
+    }
+  }
+}
+
+}  // namespace
+}  // namespace saccade

@@ -1,0 +1,208 @@
+#include <random>
+
+#include <gmock/gmock.h>
+
+#include "core/error.hpp"
+#include "oni/check.hpp"
+#include "oni/recording.hpp"
+#include "oni/repair.hpp"
+#include "oni_fixtures.hpp"
+
+namespace saccade {
+namespace {
+
+using ::testing::HasSubstr;
+using Bytes = std::vector<std::uint8_t>;
+
+const cv::Size kSize(20, 12);
+constexpr int kFrames = 4;
+
+class DamageTest : public OniFiles {
+ protected:
+  Bytes whole_;
+  std::vector<std::uint64_t> frame_ends_;  // of the depth frames' records
+
+  void SetUp() override {
+    OniFiles::SetUp();
+    record_test_frames(path("whole.oni"), kFrames, kSize, true);
+    whole_ = read_bytes(path("whole.oni"));
+    const Recording recording(path("whole.oni"));
+    for (const OniFrameEntry& frame : main_depth(recording)->frames)
+      frame_ends_.push_back(frame.payload_position + frame.payload_size);
+  }
+
+  // All depth frames that the file gives are frames that were recorded; returns which.
+  std::vector<int> frames_of(const std::filesystem::path& file) {
+    Recording recording(file);
+    std::vector<int> found;
+    const OniNode* node = main_depth(recording);
+    cv::Mat1f depth;
+    for (std::size_t k = 0; node != nullptr && k < node->frames.size(); ++k) {
+      if (!recording.read_depth(*node, k, depth).empty()) continue;
+      for (int n = 0; n < kFrames; ++n)
+        if (equal(depth, test_frame(n, kSize, true).depth_mm)) found.push_back(n);
+    }
+    return found;
+  }
+
+  std::string problems_of(const std::filesystem::path& file) {
+    Recording recording(file);
+    std::string all;
+    const OniProblems problems = check_recording(recording);
+    for (const OniProblem& problem : problems.list())
+      all += std::to_string(problem.position) + " " + problem.meaning + "\n";
+    return all;
+  }
+
+  bool sound(const std::filesystem::path& file) {
+    Recording recording(file);
+    return is_sound(check_recording(recording));
+  }
+};
+
+std::vector<int> first_frames(int count) {
+  std::vector<int> frames(static_cast<std::size_t>(count));
+  for (int k = 0; k < count; ++k) frames[static_cast<std::size_t>(k)] = k;
+  return frames;
+}
+
+TEST_F(DamageTest, CutAtAnyByteAllWholeFramesRemain) {
+  ASSERT_TRUE(sound(path("whole.oni")));
+  const std::size_t first_frame = frame_ends_.front();
+  for (std::size_t cut = 0; cut < whole_.size(); ++cut) {
+    write_bytes(path("cut.oni"), std::span(whole_).first(cut));
+    if (cut < kOniHeaderSize) {
+      ASSERT_THROW(Recording(path("cut.oni")), Error);
+      continue;
+    }
+    const auto there =
+        std::count_if(frame_ends_.begin(), frame_ends_.end(), [&](auto end) { return end <= cut; });
+    ASSERT_EQ(frames_of(path("cut.oni")), first_frames(static_cast<int>(there))) << "cut at " << cut;
+    // Repair waits for the disk, so not at every byte; but at each end of a frame.
+    const bool at_end = std::find(frame_ends_.begin(), frame_ends_.end(), cut) != frame_ends_.end();
+    if (cut < first_frame || (cut % 41 != 0 && !at_end)) continue;
+    ASSERT_FALSE(cut < frame_ends_.back() && sound(path("cut.oni"))) << "cut at " << cut;
+    repair_recording(path("cut.oni"), path("mended.oni"), true);
+    ASSERT_EQ(frames_of(path("mended.oni")), first_frames(static_cast<int>(there))) << "cut at " << cut;
+    ASSERT_TRUE(sound(path("mended.oni"))) << "cut at " << cut << "\n" << problems_of(path("mended.oni"));
+  }
+}
+
+TEST_F(DamageTest, ADestroyedStretchCostsOnlyTheFramesItTouches) {
+  const Recording recording(path("whole.oni"));
+  const auto& frames = main_depth(recording)->frames;
+  for (const std::size_t length : {1u, 4u, 30u, 200u}) {
+    // The second frame's record header, wholly or in part.
+    Bytes damaged = whole_;
+    const std::size_t begin = frames[1].payload_position - 40;
+    std::fill_n(damaged.begin() + static_cast<std::ptrdiff_t>(begin), length, std::uint8_t{0xA5});
+    write_bytes(path("d.oni"), damaged);
+    EXPECT_EQ(frames_of(path("d.oni")), (std::vector<int>{0, 2, 3})) << length;
+    EXPECT_FALSE(sound(path("d.oni")));
+    EXPECT_THAT(problems_of(path("d.oni")), HasSubstr(std::to_string(begin) + " "));
+    const OniRepairReport report = repair_recording(path("d.oni"), path("mended.oni"), true);
+    EXPECT_GT(report.lost_bytes, 0u);
+    EXPECT_EQ(frames_of(path("mended.oni")), (std::vector<int>{0, 2, 3}));
+    EXPECT_TRUE(sound(path("mended.oni"))) << problems_of(path("mended.oni"));
+  }
+}
+
+TEST_F(DamageTest, AWrongLengthDoesNotSwallowWhatFollows) {
+  const Recording recording(path("whole.oni"));
+  const std::size_t at = main_depth(recording)->frames[1].payload_position - 40;
+  for (const std::size_t field : {at + 12, at + 16}) {  // fieldsSize, payloadSize
+    for (const std::uint32_t value : {0u, 27u, 28u, 100u, 0x7FFFFFFFu, 0xFFFFFFFFu}) {
+      Bytes damaged = whole_;
+      store_le(damaged.data() + field, value);
+      write_bytes(path("d.oni"), damaged);
+      EXPECT_EQ(frames_of(path("d.oni")), (std::vector<int>{0, 2, 3})) << field - at << " = " << value;
+    }
+  }
+}
+
+TEST_F(DamageTest, EveryByteSetToAnyOfSomeValuesIsAtWorstUnreadable) {
+  for (std::size_t at = 0; at < whole_.size(); at += 3)
+    for (const std::uint8_t value :
+         {std::uint8_t{0x00}, std::uint8_t{0x0B}, std::uint8_t{0x7F}, std::uint8_t{0xFF}}) {
+      Bytes damaged = whole_;
+      if (damaged[at] == value) continue;
+      damaged[at] = value;
+      write_bytes(path("d.oni"), damaged);
+      try {
+        Recording recording(path("d.oni"));
+        check_recording(recording);
+      } catch (const Error& error) {
+        ASSERT_EQ(error.status(), ExitStatus::unreadable);
+      }
+    }
+}
+
+TEST_F(DamageTest, AZeroFilledEndIsNoDamageToTheFrames) {
+  Bytes damaged = whole_;
+  std::fill(damaged.begin() + static_cast<std::ptrdiff_t>(frame_ends_[2]), damaged.end(), std::uint8_t{0});
+  write_bytes(path("z.oni"), damaged);
+  EXPECT_EQ(frames_of(path("z.oni")), first_frames(3));
+  damaged = whole_;
+  damaged.resize(2 * whole_.size());
+  write_bytes(path("tail.oni"), damaged);
+  EXPECT_TRUE(sound(path("tail.oni"))) << "OpenNI2 leaves such a tail";
+}
+
+TEST_F(DamageTest, WrongTablesAndCountsAreFoundAndNotUsed) {
+  const Recording recording(path("whole.oni"));
+  const OniNode& node = *main_depth(recording);
+  const std::uint64_t table = node.declared.table_position;
+  const auto with = [&](std::uint64_t at, std::uint64_t value) {
+    Bytes damaged = whole_;
+    store_le(damaged.data() + at, value);
+    write_bytes(path("d.oni"), damaged);
+    EXPECT_EQ(frames_of(path("d.oni")), first_frames(kFrames));
+    EXPECT_FALSE(sound(path("d.oni")));
+    return problems_of(path("d.oni"));
+  };
+  const std::uint64_t counts = node.position + 28 + 4 + 6 + 4 + 4;  // header, "Depth", type, codec
+  EXPECT_THAT(with(counts, 0x00000000FFFFFFFF), HasSubstr("declares 4294967295 frames, 4 are there"));
+  EXPECT_THAT(with(counts + 20, 99), HasSubstr("says its table is at 99"));
+  EXPECT_THAT(with(table + 28 + 20 + 12, 5), HasSubstr("is wrong from frame 0 on"));
+  EXPECT_THAT(with(12, 7), HasSubstr("largest time"));
+  EXPECT_THAT(with(20, 0x0052494E00000001), HasSubstr("largest node id"));  // and the next record's magic
+}
+
+TEST_F(DamageTest, RepairNeverTouchesTheOriginalNorAnExistingFile) {
+  EXPECT_THROW(repair_recording(path("whole.oni"), path("whole.oni"), true), Error);
+  write_bytes(path("other"), Bytes{1});
+  EXPECT_THROW(repair_recording(path("whole.oni"), path("other"), false), Error);
+  EXPECT_EQ(read_bytes(path("other")).size(), 1u);
+  repair_recording(path("whole.oni"), path("copy.oni"), false);
+  EXPECT_EQ(read_bytes(path("whole.oni")), whole_);
+  EXPECT_EQ(frames_of(path("copy.oni")), first_frames(kFrames));
+}
+
+TEST_F(DamageTest, RepairLeavesBadFramesOut) {
+  const Recording recording(path("whole.oni"));
+  const OniFrameEntry& frame = main_depth(recording)->frames[2];
+  Bytes damaged = whole_;
+  // An index beyond the table of values.
+  store_le<std::uint16_t>(damaged.data() + frame.payload_position, 1);
+  write_bytes(path("d.oni"), damaged);
+  const OniRepairReport report = repair_recording(path("d.oni"), path("mended.oni"), false);
+  EXPECT_EQ(report.bad_frames, 1u);
+  EXPECT_EQ(frames_of(path("mended.oni")), (std::vector<int>{0, 1, 3}));
+  EXPECT_TRUE(sound(path("mended.oni")));
+}
+
+TEST_F(DamageTest, FramesOfAnUnknownNodeAndNodesAddedTwiceAreTold) {
+  Bytes damaged = whole_;
+  store_le<std::uint32_t>(damaged.data() + 24 + 8, 9);  // the id in the first NODE_ADDED
+  write_bytes(path("d.oni"), damaged);
+  EXPECT_THAT(problems_of(path("d.oni")), HasSubstr("node 1, which was never added"));
+  const Recording recording(path("whole.oni"));
+  damaged = whole_;
+  store_le<std::uint32_t>(damaged.data() + recording.index().nodes[1].position + 8, 1);
+  write_bytes(path("d.oni"), damaged);
+  EXPECT_THAT(problems_of(path("d.oni")), HasSubstr("added twice"));
+  EXPECT_EQ(frames_of(path("d.oni")), first_frames(kFrames));
+}
+
+}  // namespace
+}  // namespace saccade

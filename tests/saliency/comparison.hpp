@@ -1,0 +1,35 @@
+#pragma once
+
+#include <string>
+
+#include <opencv2/core.hpp>
+
+#include "saliency/reference.hpp"
+#include "saliency/symmetry3d.hpp"
+
+namespace saccade::test {
+
+/// What reference and production form say of one image.
+struct Comparison {
+  reference::Result expected;
+  std::vector<reference::Level> levels;  ///< points and normals, level first_level + i
+  Symmetry3dParams params;
+  cv::Mat1f depth_mm;
+  Intrinsics camera;
+
+  Comparison(const cv::Mat1f& depth, const Intrinsics& intrinsics, const Symmetry3dParams& p);
+
+  /// Runs the production form and checks, with EXPECT: sizes; nothing but finite numbers from 0 up; the
+  /// master map within 1 % of its maximum at 99.5 % of the pixels, and within `noticed` at all but a share
+  /// `excused` of them; and that each pixel of a level that is off by more than `noticed` is a near-tie.
+  void check(const std::string& simd, double excused = 0.001, double noticed = 1e-5) const;
+
+ private:
+  void check_level(std::size_t i, const cv::Mat1f& actual, double noticed) const;
+};
+
+/// Whether the operator's answer at a pixel hangs on the last bits: two eigenvalues are nearly the same, a
+/// point lies nearly on a candidate plane, or the convexity gate of a plane is about to open or shut.
+bool is_near_tie(const reference::Level& level, int row, int col, const Symmetry3dParams& params);
+
+}  // namespace saccade::test

@@ -1,0 +1,92 @@
+// Each kernel of the pyramid to the bit against the reference.
+
+#include <gtest/gtest.h>
+
+#include "saliency/kernels.hpp"
+#include "saliency/reference.hpp"
+#include "shapes.hpp"
+
+namespace saccade::test {
+namespace {
+
+// The depth of level 1 as the kernels compute it, in bands of `rows`.
+cv::Mat1f halved(const cv::Mat1f& depth, const std::string& simd, int rows) {
+  const Kernels& kernels = choose_kernels(simd);
+  LevelPlanes full(depth.size(), 7), half(level_size(depth.size(), 1), 7);
+  RowScratch scratch(depth.cols, 7);
+  kernels.load_rows(depth, full, 0, depth.rows);
+  for (int r = 0; r < half.height(); r += rows)
+    kernels.halve_rows(full, half, r, std::min(r + rows, half.height()), scratch);
+  cv::Mat1f result(half.height(), half.width());
+  for (int r = 0; r < result.rows; ++r) std::copy_n(half.row(LevelPlanes::kDepth, r), result.cols, result[r]);
+  return result;
+}
+
+void expect_same_pyramid(const cv::Mat1f& depth) {
+  const cv::Mat1d expected = reference::halve(to_double(depth));
+  for (const std::string& simd : runnable_simd())
+    for (const int rows : {1, 5, 1000}) {
+      const cv::Mat1f actual = halved(depth, simd, rows);
+      ASSERT_EQ(actual.size(), expected.size());
+      for (int r = 0; r < actual.rows; ++r)
+        for (int c = 0; c < actual.cols; ++c)
+          ASSERT_EQ(static_cast<double>(actual(r, c)), expected(r, c)) << simd << " at " << r << ", " << c;
+    }
+}
+
+TEST(Pyramid, IsThatOfTheReferenceToTheBit) {
+  for (const cv::Size size :
+       {cv::Size(64, 48), cv::Size(61, 47), cv::Size(15, 15), cv::Size(16, 19), cv::Size(131, 18)}) {
+    expect_same_pyramid(ball_scene(size, 41));
+    expect_same_pyramid(ball_scene(size, 42, 0.2f));
+  }
+}
+
+TEST(Pyramid, IsExactWhereRoundingIsATie) {
+  // Neighbours an eighth apart: weighted means fall on sixteenths.
+  cv::Mat1f depth(40, 40);
+  for (int r = 0; r < 40; ++r)
+    for (int c = 0; c < 40; ++c)
+      depth(r, c) = 1000.0f + 0.125f * static_cast<float>((r * 7 + c * 3) % 2 + (c / 2) % 2);
+  expect_same_pyramid(depth);
+}
+
+TEST(Pyramid, IsExactAtTheEndsOfTheRange) {
+  cv::Mat1f depth = ball_scene({50, 40}, 43);
+  for (int i = 0; i < 40; ++i) {
+    depth(i, i) = 1;
+    depth(i, 49 - i) = 65535;
+  }
+  expect_same_pyramid(depth);
+}
+
+TEST(Pyramid, TellsWhatDepthsAreLike) {
+  cv::Mat1f depth = ball_scene({50, 40}, 44);
+  depth(7, 49) = 4321;
+  for (const std::string& simd : runnable_simd()) {
+    LevelPlanes level(depth.size(), 7);
+    const Kernels& kernels = choose_kernels(simd);
+    EXPECT_EQ(kernels.load_rows(depth, level, 0, 20).largest_mm, 4321);
+    EXPECT_LT(kernels.load_rows(depth, level, 20, 40).largest_mm, 4321);
+    EXPECT_TRUE(kernels.load_rows(depth, level, 0, 40).multiples_of_eighths);
+    cv::Mat1f other = depth.clone();
+    other(39, 49) = 1000.2f;
+    EXPECT_TRUE(kernels.load_rows(other, level, 0, 39).multiples_of_eighths);
+    EXPECT_FALSE(kernels.load_rows(other, level, 39, 40).multiples_of_eighths);
+  }
+}
+
+TEST(DepthPacking, ItsSumsStayExact) {
+  for (const bool eighths : {true, false})
+    for (const float largest :
+         {1.0f, 1900.0f, 2100.0f, 8000.0f, 8737.0f, 8739.0f, 37000.0f, 38000.0f, 65535.0f}) {
+      const DepthPacking packing = DepthPacking::for_depths(largest, eighths);
+      const float units = largest * packing.units_per_mm, rows = static_cast<float>(packing.rows);
+      EXPECT_LT(rows * units, packing.count_unit) << largest;
+      EXPECT_LE(rows * (packing.count_unit + units), 16777216.0f) << largest;
+      EXPECT_GE(packing.units_per_mm, 8);
+    }
+}
+
+}  // namespace
+}  // namespace saccade::test
