@@ -53,7 +53,8 @@ TEST_F(RunErrorsTest, OptionsOutOfRange) {
 TEST_F(RunErrorsTest, ModelsThatCannot) {
   expect(kUsage, "model itti has no levels to dump", {"--model", "itti", "--dump", "maps,levels"});
   expect(kUsage, "model centre has no normals to dump", {"--model", "centre", "--dump", "normals"});
-  expect(kUsage, "try --levels 0..3", {"--model", "combined"});
+  expect(kUsage, "try --levels 0..4", {"--model", "combined", "--levels", "0..5"});
+
   EXPECT_FALSE(fs::exists(folder_ / "out"));
   put("0000_depth.png", cv::Mat1w(128, 160, std::uint16_t{1000}));
   expect(kUnreadable, "model itti needs colour", {"--model", "itti"}, in("data"));

@@ -105,12 +105,6 @@ TEST(Itti, OneBarOfAnotherColourPopsOut) {
 }
 
 TEST(Itti, SmallImagesUseFinerLevels) {
-  BarDisplay display;
-  display.size = {96, 72};
-  display.spacing = 24;
-  display.odd_col = 2;
-  display.odd_angle_deg = 90;
-  EXPECT_LT(display.miss(map_of("itti", frame_of(display.draw()))), 8);
   cv::Mat3b spot(24, 32, cv::Vec3b(50, 50, 50));
   cv::circle(spot, {22, 8}, 2, {255, 255, 255}, cv::FILLED);
   const cv::Point at = maximum_of(map_of("itti", frame_of(spot)));
