@@ -57,7 +57,8 @@ TEST_F(RunErrorsTest, ModelsThatCannot) {
 
   EXPECT_FALSE(fs::exists(folder_ / "out"));
   put("0000_depth.png", cv::Mat1w(128, 160, std::uint16_t{1000}));
-  expect(kUnreadable, "model itti needs colour", {"--model", "itti"}, in("data"));
+  expect(kUnreadable, "model itti needs colour", {"--model", "itti", "--intrinsics", "131,131,80,64"},
+         in("data"));
 }
 
 TEST_F(RunErrorsTest, CommandLine) {
