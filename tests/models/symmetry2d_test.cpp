@@ -132,7 +132,6 @@ TEST(MirrorPairs, AreEachPairOfTheRingOnce) {
   }
 }
 
-// Two vertical edges, 2 x 6 pixels apart at level 1, facing each other.
 TEST(Symmetry2d, IsHighestInTheMiddleOfABlobAndOfABar) {
   for (const char* model : {"symmetry2d", "colour_symmetry2d"}) {
     cv::Mat3b blob(240, 320, cv::Vec3b(200, 200, 200));
