@@ -25,6 +25,7 @@
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "drivers/open_source.hpp"
+#include "models/model.hpp"
 #include "pipeline/pipeline.hpp"
 
 namespace saccade {
@@ -58,7 +59,7 @@ class Run {
     Interrupt interrupt([this] { stop(); });
     auto source = open_source(uri);
     report_.source = source->info();
-    check_levels(report_.source.size, Symmetry3dParams::from(report_.settings));
+    check_model(report_.settings, report_.source.size);
     check_start(report_.source, report_.settings);
     auto processor = make_processor(report_.settings);
     make_output_folder(folder_);

@@ -128,7 +128,12 @@ std::string print_dump(const Settings& s) {
 std::vector<SettingSpec> make_specs() {
   constexpr std::int64_t kMany = 1'000'000'000;
   return {
-      word("model", "saliency model: symmetry3d", &Settings::model, {"symmetry3d"}),
+      word("model",
+           "saliency model: symmetry3d, combined, symmetry2d, colour_symmetry2d, radial2d, itti, "
+           "itti_orientation, random or centre",
+           &Settings::model,
+           {"symmetry3d", "combined", "symmetry2d", "colour_symmetry2d", "radial2d", "itti",
+            "itti_orientation", "random", "centre"}),
       number("kernel", "K", "kernel size k in pixels of each level, 3..127", &Settings::kernel, 3, 127),
       {"levels", "A..B", "pyramid levels, 0 = full size; each halves the last", parse_levels,
        [](const Settings& s) { return fmt::format("{}..{}", s.first_level, s.last_level); }},

@@ -22,6 +22,10 @@ class SaliencyModel {
   virtual void compute(const Frame& frame, SaliencyWants wants, SaliencyMaps& maps, StageTimes& times) = 0;
 };
 
+/// Throws Error (usage) if the settings do not fit images of this size (symmetry3d and combined: see
+/// check_levels()) or ask to dump by-products that the model does not have.
+void check_model(const Settings& settings, cv::Size image);
+
 /// The model named by settings.model. `pool` must outlive it. Throws Error (usage) if this machine cannot run
 /// it.
 std::unique_ptr<SaliencyModel> make_model(const Settings& settings, WorkerPool& pool);

@@ -50,6 +50,17 @@ TEST_F(RunErrorsTest, OptionsOutOfRange) {
   EXPECT_FALSE(fs::exists(folder_ / "out")) << "nothing is made before the command line is right";
 }
 
+TEST_F(RunErrorsTest, ModelsThatCannot) {
+  expect(kUsage, "model itti has no levels to dump", {"--model", "itti", "--dump", "maps,levels"});
+  expect(kUsage, "model centre has no normals to dump", {"--model", "centre", "--dump", "normals"});
+  expect(kUsage, "try --levels 0..4", {"--model", "combined", "--levels", "0..5"});
+
+  EXPECT_FALSE(fs::exists(folder_ / "out"));
+  put("0000_depth.png", cv::Mat1w(128, 160, std::uint16_t{1000}));
+  expect(kUnreadable, "model itti needs colour", {"--model", "itti", "--intrinsics", "131,131,80,64"},
+         in("data"));
+}
+
 TEST_F(RunErrorsTest, CommandLine) {
   for (const std::vector<std::string>& arguments : {std::vector<std::string>{},
                                                     {"nonsense"},

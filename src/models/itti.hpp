@@ -1,0 +1,56 @@
+#pragma once
+
+#include <array>
+
+#include "models/model.hpp"
+
+namespace saccade {
+
+/// `itti` and `itti_orientation`: Itti, Koch, Niebur, "A model of saliency-based visual attention for rapid
+/// scene analysis", PAMI 1998: intensity, red/green and blue/yellow opponency and 4 orientations, each
+/// compared between a fine level c = 2, 3, 4 of a pyramid and a coarse one c + 3, c + 4; each map of
+/// differences normalised by N(.) and added at level 4. itti_orientation is the orientation channel alone.
+///
+/// Where the article is open or cannot be followed to the letter:
+///  - opponency is |RG(c) - RG(s)|; as printed, a centre would be compared with the negated surround;
+///  - orientations are the energy of a Gabor pair (period 7 px, sigma 7/3 px, no answer to a constant) on
+///  each
+///    level of the intensity pyramid;
+///  - differences are lowered towards the border of the image (attenuate_border());
+///  - images below 128 px a side use finer levels: all level numbers go down by one while the map would have
+///    a side below 8 px, at most by two. Sides never go below one pixel, so that any size can be looked at.
+class IttiModel : public SaliencyModel {
+ public:
+  IttiModel(const char* name, bool orientation_only, WorkerPool& pool);
+  void compute(const Frame& frame, SaliencyWants wants, SaliencyMaps& maps, StageTimes& times) override;
+
+ private:
+  static constexpr int kOrientations = 4, kCentres = 3, kSurrounds = 2, kLevels = 9;
+  static constexpr int kFirstCentre = 2, kDelta = 3, kMapLevel = 4;
+  using Pyramid = std::array<cv::Mat1f, kLevels>;
+  enum Channel { kIntensity, kRedGreen, kBlueYellow, kOrientation, kChannels = kOrientation + kOrientations };
+
+  struct ChannelState {
+    Pyramid levels;
+    cv::Mat1f sum;                                    ///< of the normalised differences, at the map's level
+    std::array<cv::Mat1f, kMapLevel + 1> difference;  ///< |c - s|, at its level and on its way to the map's
+    std::array<cv::Mat1f, 2> parts;                   ///< of the Gabor filters
+  };
+
+  void resize(cv::Size size);
+  void split_colours(const cv::Mat3b& colour);
+  void build_pyramid(Pyramid& levels) const;
+  void find_orientation(int orientation, ChannelState& state) const;
+  void compare_levels(ChannelState& state) const;
+  void add_channels();
+
+  const char* name_;
+  bool orientation_only_;
+  WorkerPool& pool_;
+  cv::Size size_;
+  int finer_ = 0;  ///< by how many levels all are finer, for small images
+  std::array<ChannelState, kChannels> channels_;
+  cv::Mat1f conspicuity_;
+};
+
+}  // namespace saccade

@@ -1,0 +1,117 @@
+#include "models/mirror_pairs.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <opencv2/imgproc.hpp>
+
+#include "models/image.hpp"
+#include "saliency/params.hpp"
+
+namespace saccade {
+namespace {
+
+constexpr int kOuter = 5, kInner = 2;  // half-widths
+constexpr int kFirstLevel = 1, kLastLevel = 5;
+constexpr int kUnitsPerGrey = 256;  // of the 16-bit levels
+constexpr int kRowsOfBand = 8;
+
+}  // namespace
+
+std::vector<MirrorPair> mirror_pairs() {
+  constexpr double kSigma = 16;
+  std::vector<MirrorPair> pairs;
+  for (int dy = 0; dy <= kOuter; ++dy)
+    for (int dx = -kOuter; dx <= kOuter; ++dx) {
+      if (dy == 0 && dx <= 0) continue;  // the other end of a pair that is there already
+      if (dy <= kInner && std::abs(dx) <= kInner) continue;
+      const double radius2 = dx * dx + dy * dy, distance2 = 4 * radius2;
+      const double weight =
+          std::exp(-distance2 / (2 * kSigma * kSigma)) / (kSigma * std::sqrt(2 * std::numbers::pi));
+      pairs.push_back({dx, dy, static_cast<float>((dx * dx - dy * dy) / radius2),
+                       static_cast<float>(2 * dx * dy / radius2), static_cast<float>(weight)});
+    }
+  return pairs;
+}
+
+MomentPlanes::MomentPlanes(cv::Size size, int planes) {
+  for (int p = 0; p < planes; ++p)
+    planes_.emplace_back(cv::Mat1f::zeros(size.height + 2 * kMargin, size.width + 2 * kMargin));
+}
+
+MirrorPairModel::Level::Level(cv::Size size, const PairMeasure& measure)
+    : image(size, CV_MAKETYPE(CV_16U, measure.channels())),
+      gx(size, CV_MAKETYPE(CV_32F, measure.channels())),
+      gy(gx.clone()),
+      moments(size, measure.planes()),
+      score(size) {}
+
+MirrorPairModel::MirrorPairModel(const char* name, std::unique_ptr<PairMeasure> measure, WorkerPool& pool)
+    : name_(name), measure_(std::move(measure)), pool_(pool) {}
+
+void MirrorPairModel::resize(cv::Size size) {
+  if (size == size_) return;
+  size_ = size;
+  levels_.clear();
+  for (int l = kFirstLevel; l <= kLastLevel; ++l) levels_.emplace_back(level_size(size, l), *measure_);
+}
+
+void MirrorPairModel::load(const cv::Mat3b& colour) {
+  if (measure_->channels() == 1)
+    cv::cvtColor(colour, full_8bit_, cv::COLOR_BGR2GRAY);
+  else
+    full_8bit_ = colour;
+  full_8bit_.convertTo(full_, CV_16U, kUnitsPerGrey);
+  cv::pyrDown(full_, levels_[0].image);
+  for (std::size_t i = 1; i < levels_.size(); ++i) cv::pyrDown(levels_[i - 1].image, levels_[i].image);
+}
+
+// Shares the rows of all levels among the workers: job(level, begin, end).
+template <typename Job>
+void MirrorPairModel::for_bands(Job job) {
+  const auto bands_of = [](const Level& level) { return (level.score.rows + kRowsOfBand - 1) / kRowsOfBand; };
+  int bands = 0;
+  for (const Level& level : levels_) bands += bands_of(level);
+  const auto band = [&](int b, int) {
+    std::size_t l = 0;
+    for (; b >= bands_of(levels_[l]); ++l) b -= bands_of(levels_[l]);
+    job(levels_[l], b * kRowsOfBand, std::min((b + 1) * kRowsOfBand, levels_[l].score.rows));
+  };
+  pool_.for_each(bands, std::ref(band));
+}
+
+void MirrorPairModel::compute(const Frame& frame, SaliencyWants, SaliencyMaps& maps, StageTimes& times) {
+  const StageTimer timer(times, Stage::symmetry);
+  const cv::Mat3b& colour = colour_of(frame, name_);
+  resize(colour.size());
+  load(colour);
+  for_bands([&](Level& level, int begin, int end) {
+    // A range of rows sees its neighbours in the image.
+    const cv::Mat image = level.image.rowRange(begin, end);
+    cv::Mat gx = level.gx.rowRange(begin, end), gy = level.gy.rowRange(begin, end);
+    cv::Sobel(image, gx, CV_32F, 1, 0);
+    cv::Sobel(image, gy, CV_32F, 0, 1);
+    // Divided afterwards: sums of whole numbers are exact, so that what is flat has the gradient 0.
+    gx *= 1.0 / (255 * kUnitsPerGrey);
+    gy *= 1.0 / (255 * kUnitsPerGrey);
+    for (int r = begin; r < end; ++r)
+      measure_->set_moments(level.gx.ptr<float>(r), level.gy.ptr<float>(r), level.gx.cols, level.moments, r);
+  });
+  for_bands([&](Level& level, int begin, int end) {
+    for (int r = begin; r < end; ++r) {
+      std::fill_n(level.score[r], level.score.cols, 0.0F);
+      measure_->add_pairs(level.moments, r, pairs_, level.score[r], level.score.cols);
+    }
+  });
+  for (std::size_t i = levels_.size() - 1; i > 0; --i)
+    upsample_rows(levels_[i].score, 1, levels_[i - 1].score, true, 0, levels_[i - 1].score.rows);
+  maps.levels.clear();
+  maps.normals.release();
+  maps.master.create(colour.size());
+  for_row_bands(pool_, colour.rows, [&](int begin, int end) {
+    upsample_rows(levels_[0].score, kFirstLevel, maps.master, false, begin, end);
+  });
+}
+
+}  // namespace saccade

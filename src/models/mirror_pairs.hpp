@@ -1,0 +1,85 @@
+#pragma once
+
+#include <vector>
+
+#include <opencv2/core.hpp>
+
+#include "models/model.hpp"
+
+namespace saccade {
+
+/// Two pixels mirrored about a centre: centre + (dy, dx) and centre - (dy, dx).
+struct MirrorPair {
+  int dx, dy;
+  float cos2a, sin2a;  ///< of twice alpha, the angle of the line that joins them
+  float weight;        ///< exp(-d^2/(2 sigma^2))/(sigma sqrt(2 pi)), d = their distance in px, sigma = 16
+};
+
+/// Each pair once, within the outer kernel (half-width 5) and outside the inner one (half-width 2).
+std::vector<MirrorPair> mirror_pairs();
+
+/// What the gradients of one pyramid level are turned into: kPlanes numbers a pixel, 0 around the image, so
+/// that a pair of which a pixel is outside counts nothing.
+class MomentPlanes {
+ public:
+  static constexpr int kMargin = 5;  ///< the half-width of the outer kernel
+
+  MomentPlanes(cv::Size size, int planes);
+  float* row(int plane, int r) { return planes_[static_cast<std::size_t>(plane)][r + kMargin] + kMargin; }
+  const float* row(int plane, int r) const {
+    return planes_[static_cast<std::size_t>(plane)][r + kMargin] + kMargin;
+  }
+
+ private:
+  std::vector<cv::Mat1f> planes_;
+};
+
+/// How a model makes moments of gradients, and a pair's contribution of moments.
+class PairMeasure {
+ public:
+  virtual ~PairMeasure() = default;
+  virtual int channels() const = 0;  ///< of the image: 1 = grey, 3 = B, G, R
+  virtual int planes() const = 0;
+
+  /// Row r of the moments. gx, gy: Sobel gradient (sum of weights 8, image in 0..1), channels interleaved.
+  virtual void set_moments(const float* gx, const float* gy, int width, MomentPlanes& moments,
+                           int r) const = 0;
+
+  /// Adds what the pairs about each pixel of row r contribute.
+  virtual void add_pairs(const MomentPlanes& moments, int r, const std::vector<MirrorPair>& pairs,
+                         float* score, int width) const = 0;
+};
+
+/// Symmetry of gradients at pixel pairs on pyramid levels 1..5 of the colour image, brought to full size and
+/// summed: the common part of symmetry2d and colour_symmetry2d. Levels are made by the binomial
+/// [1 4 6 4 1]/16, borders reflect, and are rounded to 1/256 of a grey level, so that a flat image has no
+/// gradient at all. A level's sides never go below one pixel, so that images of any size can be looked at.
+class MirrorPairModel : public SaliencyModel {
+ public:
+  MirrorPairModel(const char* name, std::unique_ptr<PairMeasure> measure, WorkerPool& pool);
+  void compute(const Frame& frame, SaliencyWants wants, SaliencyMaps& maps, StageTimes& times) override;
+
+ private:
+  struct Level {
+    Level(cv::Size size, const PairMeasure& measure);
+    cv::Mat image;   // 16 bits, 256 = one grey level
+    cv::Mat gx, gy;  // float
+    MomentPlanes moments;
+    cv::Mat1f score;
+  };
+
+  void resize(cv::Size size);
+  void load(const cv::Mat3b& colour);
+  template <typename Job>
+  void for_bands(Job job);
+
+  const char* name_;
+  std::unique_ptr<PairMeasure> measure_;
+  WorkerPool& pool_;
+  std::vector<MirrorPair> pairs_ = mirror_pairs();
+  cv::Size size_;
+  cv::Mat full_8bit_, full_;
+  std::vector<Level> levels_;  // 1..5
+};
+
+}  // namespace saccade

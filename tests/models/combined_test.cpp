@@ -1,0 +1,97 @@
+#include "models/combined.hpp"
+
+#include <gtest/gtest.h>
+#include <opencv2/imgproc.hpp>
+
+#include "displays.hpp"
+
+namespace saccade {
+namespace {
+
+// A ball on a wall that faces the camera, on the left, and a red disc on the wall, on the right.
+Frame ball_and_picture(float wall_mm) {
+  Frame frame = frame_of(cv::Mat3b(240, 320, cv::Vec3b(90, 90, 90)));
+  cv::circle(frame.colour, {240, 120}, 20, {40, 40, 220}, cv::FILLED);
+  const float radius_px = 30;
+  for (int r = 0; r < 240; ++r)
+    for (int c = 0; c < 320; ++c) {
+      const float inside =
+          radius_px * radius_px - static_cast<float>((r - 120) * (r - 120) + (c - 80) * (c - 80));
+      const float mm_per_px = wall_mm / static_cast<float>(frame.intrinsics.fx);
+      frame.depth_mm(r, c) = wall_mm - (inside > 0 ? std::sqrt(inside) * mm_per_px : 0);
+    }
+  return frame;
+}
+
+TEST(Combined, FollowsShapeWhereThingsAreNearAndTheImageWhereTheyAreFar) {
+  EXPECT_LT(maximum_of(map_of("combined", ball_and_picture(600))).x, 160);
+  EXPECT_GT(maximum_of(map_of("combined", ball_and_picture(3000))).x, 160);
+}
+
+TEST(Combined, SeesBothAtAnyDistance) {
+  for (const float wall_mm : {600.0F, 1500.0F, 3000.0F}) {
+    const cv::Mat1f map = map_of("combined", ball_and_picture(wall_mm));
+    const float elsewhere = map(20, 160), ball = map(120, 80), picture = map(120, 240);
+    EXPECT_GT(ball, 3 * elsewhere) << wall_mm;
+    EXPECT_GT(picture, 3 * elsewhere) << wall_mm;
+  }
+}
+
+TEST(Combined, WithoutDepthIsTheImageAlone) {
+  Frame frame = ball_and_picture(1000);
+  frame.depth_mm.setTo(0);
+  const cv::Point at = maximum_of(map_of("combined", frame));
+  EXPECT_LT(std::hypot(at.x - 240, at.y - 120), 24) << at;
+}
+
+// Each step of the header in double, from the maps of the single models.
+TEST(Combined, IsTheWeighedSumOfItsMaps) {
+  const Frame frame = ball_and_picture(1100);
+  WorkerPool pool(1);
+  SaliencyMaps maps;
+  StageTimes times;
+  make_model(settings_for("symmetry3d"), pool)->compute(frame, {.levels = true}, maps, times);
+  cv::Mat1d noise_aware(frame.size(), 0.0);
+  std::vector<float> depths(frame.depth_mm.begin(), frame.depth_mm.end());
+  std::sort(depths.begin(), depths.end());
+  for (std::size_t l = 0; l < maps.levels.size(); ++l) {
+    cv::Mat1d weighed(maps.levels[l].size());
+    for (int r = 0; r < weighed.rows; ++r)
+      for (int c = 0; c < weighed.cols; ++c) {
+        const double x = static_cast<double>(frame.depth_mm(r << l, c << l)) / (500 << l);
+        weighed(r, c) = static_cast<double>(maps.levels[l](r, c)) / (1 + x * x);
+      }
+    cv::Mat1d full(frame.size());
+    for (int r = 0; r < full.rows; ++r)
+      for (int c = 0; c < full.cols; ++c) {
+        const int step = 1 << l, r0 = r / step, c0 = c / step;
+        const int r1 = std::min(r0 + 1, weighed.rows - 1), c1 = std::min(c0 + 1, weighed.cols - 1);
+        const double v = static_cast<double>(r % step) / step, u = static_cast<double>(c % step) / step;
+        full(r, c) = (1 - v) * ((1 - u) * weighed(r0, c0) + u * weighed(r0, c1)) +
+                     v * ((1 - u) * weighed(r1, c0) + u * weighed(r1, c1));
+      }
+    noise_aware += full;
+  }
+  const auto reduce = [](const cv::Mat& full) {
+    cv::Mat1d map = as_double(full);
+    cv::pyrDown(map, map);
+    cv::pyrDown(map, map);
+    cv::GaussianBlur(map, map, {}, 1.5);
+    double highest = 0;
+    cv::minMaxLoc(map, nullptr, &highest);
+    return as_double(map, 1 / highest);
+  };
+  const double x = static_cast<double>(depths[depths.size() / 2]) / 1200, trust = 1 / (1 + std::pow(x, 4));
+  const cv::Mat1d depth_part = reduce(noise_aware), itti = reduce(map_of("itti", frame)),
+                  grey_part = reduce(map_of("symmetry2d", frame));
+  const cv::Mat1f map = map_of("combined", frame);
+  for (int r = 0; r < itti.rows; ++r)
+    for (int c = 0; c < itti.cols; ++c) {
+      const double expected =
+          (0.5 + 0.5 * trust) * depth_part(r, c) + (1 - trust) * (itti(r, c) + 0.25 * grey_part(r, c));
+      ASSERT_NEAR(static_cast<double>(map(4 * r, 4 * c)), expected, 1e-3) << r << " " << c;
+    }
+}
+
+}  // namespace
+}  // namespace saccade
