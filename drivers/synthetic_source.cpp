@@ -174,10 +174,11 @@ ReadResult SyntheticSource::read(Frame& frame, std::chrono::milliseconds) {
   frame.timestamp_us = std::llround(static_cast<double>(index) * 1e6 / spec_.rate_hz);
   frame.name.clear();
   frame.intrinsics = info_.intrinsics;
-  // What a still camera sees is rendered once and shared by all frames; a moving one's view_ is rendered over.
-  const bool still = spec_.camera == SyntheticSpec::Camera::still;
-  const auto give = [still](const auto& seen, auto& to) {
-    if (still)
+  // What a still camera sees of one scene is rendered once and shared by all frames; else view_ is rendered
+  // over.
+  const bool rendered_once = spec_.camera == SyntheticSpec::Camera::still && spec_.scenes == 1;
+  const auto give = [rendered_once](const auto& seen, auto& to) {
+    if (rendered_once)
       to = seen;
     else
       seen.copyTo(to);

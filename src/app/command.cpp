@@ -4,6 +4,7 @@
 #include <spdlog/spdlog.h>
 
 #include "core/error.hpp"
+#include "saliency/params.hpp"
 
 namespace saccade {
 namespace fs = std::filesystem;
@@ -18,6 +19,14 @@ void tell_notes(const SourceInfo& source, const Settings& settings) {
   if (!settings.intrinsics && camera.origin == IntrinsicsOrigin::guess)
     spdlog::warn("{}: no calibration, guessing fx={} fy={} cx={} cy={} (give --intrinsics fx,fy,cx,cy)",
                  source.uri, camera.fx, camera.fy, camera.cx, camera.cy);
+}
+
+void fit_default_levels(Settings& settings, SourceInfo& source) {
+  const int deepest = deepest_level(source.size);
+  if (settings.levels_chosen || deepest < 0 || deepest >= settings.last_level) return;
+  settings.last_level = deepest;
+  source.notes.push_back(fmt::format("{}x{} images have room for levels 0..{} only, not for the default",
+                                     source.size.width, source.size.height, deepest));
 }
 
 void check_start(const SourceInfo& source, const Settings& settings) {

@@ -57,7 +57,7 @@ EvalPlan make_plan(const EvalArguments& arguments, const Settings& settings, con
   if (plan.shard > plan.positions)
     throw usage_error(fmt::format("shard {} holds no frame", plan.shard), source.uri,
                       fmt::format("{} frames are selected: use as many shards or fewer", plan.positions));
-  check_levels(source.size, Symmetry3dParams::from(settings));
+  check_levels(source.size, Symmetry3dParams::from(plan.settings));
   return plan;
 }
 
@@ -176,8 +176,11 @@ void eval(const EvalArguments& arguments, const Settings& settings) {
   std::atomic<bool> stop = false;
   const Interrupt interrupt([&] { stop = true; });
   const auto source = open_source(arguments.dataset);
-  tell_notes(source->info(), settings);
-  const EvalPlan plan = make_plan(arguments, settings, source->info());
+  SourceInfo info = source->info();
+  Settings fitting = settings;
+  fit_default_levels(fitting, info);
+  tell_notes(info, fitting);
+  const EvalPlan plan = make_plan(arguments, fitting, info);
   WorkerPool pool(worker_count(settings));
   Evaluation evaluation(plan, *source, pool);
   const fs::path out = arguments.out;

@@ -59,6 +59,7 @@ class Run {
     Interrupt interrupt([this] { stop(); });
     auto source = open_source(uri);
     report_.source = source->info();
+    fit_default_levels(report_.settings, report_.source);
     check_model(report_.settings, report_.source.size);
     check_start(report_.source, report_.settings);
     auto processor = make_processor(report_.settings);

@@ -86,6 +86,7 @@ void parse_levels(Settings& s, const std::string& text) {
   if (first > last) throw std::invalid_argument(expected);
   s.first_level = first;
   s.last_level = last;
+  s.levels_chosen = true;
 }
 
 void parse_intrinsics(Settings& s, const std::string& text) {

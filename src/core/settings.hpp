@@ -25,9 +25,10 @@ enum class Selector { proto, wta };
 struct Settings {
   // What is computed
   std::string model = "symmetry3d";
-  int kernel = 15;                                   ///< k, px; the window is 2*floor(k/2)+1 a side; 3..127
-  int first_level = 0, last_level = 4;               ///< pyramid levels L1..L2 of Eq. (15)
-  LengthScale length_scale = LengthScale::relative;  ///< unit of Delta D and Delta d in Eqs. (3)
+  int kernel = 15;             ///< k, px; the window is 2*floor(k/2)+1 a side; 3..127
+  bool levels_chosen = false;  ///< false: the default levels, which may be cut to what an image has room for
+  int first_level = 0, last_level = 4;                          ///< pyramid levels L1..L2 of Eq. (15)
+  LengthScale length_scale = LengthScale::relative;             ///< unit of Delta D and Delta d in Eqs. (3)
   LevelNormalisation normalisation = LevelNormalisation::none;  ///< of each level's map before they are added
   std::string simd = "auto";  ///< highest instruction set of the fast operator
 

@@ -20,20 +20,25 @@ cv::Size level_size(cv::Size image, int level) {
   return image;
 }
 
+int deepest_level(cv::Size image) {
+  int level = -1;
+  while (std::min(image.width, image.height) >= kSmallestSide) {
+    image = level_size(image, 1);
+    ++level;
+  }
+  return level;
+}
+
 void check_levels(cv::Size image, const Symmetry3dParams& params) {
-  const auto side = [&](int level) {
-    const cv::Size size = level_size(image, level);
-    return std::min(size.width, size.height);
-  };
-  if (side(params.last_level) >= kSmallestSide) return;
-  int deepest = params.last_level;
-  while (deepest >= 0 && side(deepest) < kSmallestSide) --deepest;
+  const int deepest = deepest_level(image);
+  if (params.last_level <= deepest) return;
+  const std::string size = fmt::format("{}x{} image", image.width, image.height);
+  if (deepest < 0)
+    throw unreadable("the image is too small", size,
+                     fmt::format("at least {0}x{0} pixels are needed", kSmallestSide));
   const cv::Size last = level_size(image, params.last_level);
   throw usage_error(fmt::format("level {} has only {}x{} pixels", params.last_level, last.width, last.height),
-                    fmt::format("{}x{} image", image.width, image.height),
-                    deepest >= 0
-                        ? fmt::format("try --levels {}..{}", std::min(params.first_level, deepest), deepest)
-                        : fmt::format("an image needs at least {0}x{0} pixels", kSmallestSide));
+                    size, fmt::format("try --levels {}..{}", std::min(params.first_level, deepest), deepest));
 }
 
 }  // namespace saccade

@@ -21,7 +21,11 @@ struct Symmetry3dParams {
 /// Size of pyramid level `level` of an image: level l+1 holds the even rows and columns of level l.
 cv::Size level_size(cv::Size image, int level);
 
-/// Throws Error (usage) if the last level would have a side below 8 px, naming the deepest that fits.
+/// The deepest level of an image that has at least 8 px a side; -1 if the image itself has not.
+int deepest_level(cv::Size image);
+
+/// Throws Error (usage) if the last level would have a side below 8 px, naming the deepest that fits; Error
+/// (unreadable) if the image itself is too small.
 void check_levels(cv::Size image, const Symmetry3dParams& params);
 
 }  // namespace saccade

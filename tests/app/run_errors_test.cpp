@@ -47,6 +47,7 @@ TEST_F(RunErrorsTest, OptionsOutOfRange) {
   expect(kUsage, "fx,fy,cx,cy", {"--intrinsics=-525,525,320,240"});
   expect(kUsage, "maps, levels", {"--dump", "everything"});
   expect(kUsage, "it has 2 frames", {"--start", "2", "--levels", "0..2"});
+  expect(kUnreadable, "the image is too small", {}, "synthetic:table?frames=1&size=20x7");
   EXPECT_FALSE(fs::exists(folder_ / "out")) << "nothing is made before the command line is right";
 }
 

@@ -181,6 +181,13 @@ TEST_F(RunTest, UnusableFramesAreRejectedAndTheRestIsProcessed) {
   EXPECT_TRUE(fs::exists(folder_ / "out/000003_saliency.tiff"));
 }
 
+TEST_F(RunTest, DefaultLevelsAreCutToWhatTheImageHasRoomFor) {
+  const Outcome outcome = run_saccade({"run", "synthetic:table?frames=1&size=40x30", "--out", in("out")});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_THAT(outcome.err, ::testing::HasSubstr("40x30 images have room for levels 0..2 only"));
+  EXPECT_EQ(json::parse(text("out/manifest.json"))["settings"]["levels"], "0..2");
+}
+
 TEST_F(RunTest, DepthWithoutAnyReadingGivesAZeroMapAndNoFixations) {
   write_file(folder_ / "0000_depth.png", encode_png(cv::Mat1w(64, 64, std::uint16_t{0})));
   for (const char* selector : {"proto", "wta"}) {
