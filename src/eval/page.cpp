@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "eval/hit_ratio.hpp"
+#include "eval/markup.hpp"
 
 namespace saccade {
 namespace {
@@ -22,27 +23,6 @@ figure { margin: 0; } figure img { width: 100%; display: block; }
 figcaption { font-size: 0.9em; padding-top: 0.3em; }
 </style></head><body>
 )";
-
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text) switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      default:
-        out += c;
-    }
-  return out;
-}
 
 std::string table_row(const std::string& name, const Curve& curve, const std::vector<int>& counts) {
   std::string row = "<tr><td>" + escaped(name) + "</td>";
