@@ -54,7 +54,7 @@ struct Settings {
 /// One setting: its name, how it is written, what it means, and the way in and out of Settings.
 struct SettingSpec {
   std::string_view key;    ///< option --key and TOML key
-  std::string_view value;  ///< placeholder in the help, e.g. "K"; empty for a switch
+  std::string_view value;  ///< what the help calls the value, e.g. "K"; empty for a switch
   std::string_view help;   ///< one line, with unit and range
   /// Throws std::invalid_argument whose text says what is expected, e.g. "3..127".
   std::function<void(Settings&, const std::string&)> parse;
