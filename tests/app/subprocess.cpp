@@ -65,15 +65,6 @@ Outcome run_saccade(const std::vector<std::string>& arguments, int interrupt_aft
   return outcome;
 }
 
-void ProgramTest::SetUp() {
-  folder_ = fs::path(::testing::TempDir()) /
-            (std::string("saccade_run_") + ::testing::UnitTest::GetInstance()->current_test_info()->name());
-  fs::remove_all(folder_);
-  fs::create_directories(folder_);
-}
-
-void ProgramTest::TearDown() { fs::remove_all(folder_); }
-
 std::string ProgramTest::text(const std::string& name) const { return read_text(folder_ / name); }
 
 }  // namespace saccade

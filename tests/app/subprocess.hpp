@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/folder_test.hpp"
+
 namespace saccade {
 
 struct Outcome {
@@ -16,19 +18,16 @@ struct Outcome {
   ::testing::AssertionResult one_error_line() const;
 };
 
-/// Runs the program under test. With interrupt_after_ms >= 0 it gets `signal` (SIGINT) once the file `wait_for`
-/// exists and so many milliseconds have passed.
+/// Runs the program under test. With interrupt_after_ms >= 0 it gets `signal` (SIGINT) once the file
+/// `wait_for` exists and so many milliseconds have passed.
 Outcome run_saccade(const std::vector<std::string>& arguments, int interrupt_after_ms = -1,
                     const std::filesystem::path& wait_for = {}, int signal = 2);
 
-/// A folder of one test, empty at its start and removed at its end.
-class ProgramTest : public ::testing::Test {
+/// A test that runs the program in a folder of its own.
+class ProgramTest : public FolderTest {
  protected:
-  void SetUp() override;
-  void TearDown() override;
   std::string in(const std::string& name) const { return (folder_ / name).string(); }
   std::string text(const std::string& name) const;
-  std::filesystem::path folder_;
 };
 
 }  // namespace saccade

@@ -6,20 +6,14 @@
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
+#include "tests/folder_test.hpp"
 
 namespace saccade {
 namespace {
 
 namespace fs = std::filesystem;
 
-class FileTest : public ::testing::Test {
- protected:
-  fs::path folder_ =
-      fs::path(::testing::TempDir()) /
-      (std::string("saccade_file_") + ::testing::UnitTest::GetInstance()->current_test_info()->name());
-  void SetUp() override { fs::create_directories(folder_); }
-  void TearDown() override { fs::remove_all(folder_); }
-};
+class FileTest : public FolderTest {};
 
 std::string content(const fs::path& path) {
   const auto bytes = read_file(path);

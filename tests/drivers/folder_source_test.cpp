@@ -11,6 +11,7 @@
 #include "core/file.hpp"
 #include "core/png.hpp"
 #include "drivers/open_source.hpp"
+#include "tests/folder_test.hpp"
 
 namespace saccade {
 namespace {
@@ -22,17 +23,8 @@ using ::testing::IsEmpty;
 
 constexpr std::chrono::milliseconds kNoWait{0};
 
-class FolderSourceTest : public ::testing::Test {
+class FolderSourceTest : public FolderTest {
  protected:
-  void SetUp() override {
-    folder_ =
-        fs::path(::testing::TempDir()) /
-        (std::string("saccade_folder_") + ::testing::UnitTest::GetInstance()->current_test_info()->name());
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
   void put(const std::string& name, const cv::Mat& image) const {
     write_file(folder_ / name, encode_png(image));
   }
@@ -61,8 +53,6 @@ class FolderSourceTest : public ::testing::Test {
     EXPECT_EQ(result.status, ReadStatus::rejected);
     return result.reason;
   }
-
-  fs::path folder_;
 };
 
 TEST_F(FolderSourceTest, ReadsFramesInTheOrderOfTheirNumbersWithColourAndLabels) {

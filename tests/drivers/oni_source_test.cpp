@@ -11,6 +11,7 @@
 #include "drivers/open_source.hpp"
 #include "oni/bytes.hpp"
 #include "oni/writer.hpp"
+#include "tests/folder_test.hpp"
 
 namespace saccade {
 namespace {
@@ -23,17 +24,8 @@ using ::testing::Not;
 constexpr std::chrono::milliseconds kNoWait{0};
 constexpr int kFrames = 10;
 
-class OniSourceTest : public ::testing::Test {
+class OniSourceTest : public FolderTest {
  protected:
-  void SetUp() override {
-    folder_ =
-        fs::path(::testing::TempDir()) / (std::string("saccade_oni_source_") +
-                                          ::testing::UnitTest::GetInstance()->current_test_info()->name());
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-  fs::path folder_;
   fs::path file() const { return folder_ / "r.oni"; }
 
   static Frame frame(int k) {

@@ -10,6 +10,7 @@
 #include "core/png.hpp"
 #include "drivers/open_source.hpp"
 #include "pcd_writer.hpp"
+#include "tests/folder_test.hpp"
 
 namespace saccade {
 namespace {
@@ -22,15 +23,8 @@ using ::testing::IsEmpty;
 constexpr std::chrono::milliseconds kNoWait{0};
 constexpr Intrinsics kCamera{40, 41, 12, 9, IntrinsicsOrigin::file};
 
-class OsdSourceTest : public ::testing::Test {
+class OsdSourceTest : public FolderTest {
  protected:
-  void SetUp() override {
-    folder_ = fs::path(::testing::TempDir()) /
-              (std::string("saccade_osd_") + ::testing::UnitTest::GetInstance()->current_test_info()->name());
-    fs::remove_all(folder_);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
   void put(const std::string& name, const cv::Mat& image) const { put_bytes(name, encode_png(image)); }
   void put_bytes(const std::string& name, const std::vector<std::uint8_t>& bytes) const {
     fs::create_directories((folder_ / name).parent_path());
@@ -43,8 +37,6 @@ class OsdSourceTest : public ::testing::Test {
     put("annotation/" + name, cv::Mat1b(size, static_cast<std::uint8_t>(value)));
   }
   std::unique_ptr<FrameSource> open() const { return open_source(folder_.string()); }
-
-  fs::path folder_;
 };
 
 TEST_F(OsdSourceTest, FilesBelongTogetherByTheirStems) {

@@ -8,6 +8,7 @@
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "samples.hpp"
+#include "tests/folder_test.hpp"
 
 namespace saccade {
 namespace {
@@ -15,17 +16,8 @@ namespace {
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 
-class ResultFileTest : public ::testing::Test {
+class ResultFileTest : public FolderTest {
  protected:
-  void SetUp() override {
-    folder_ =
-        fs::path(::testing::TempDir()) /
-        (std::string("saccade_results_") + ::testing::UnitTest::GetInstance()->current_test_info()->name());
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
   void put(const std::string& text, const std::string& sub = "") const {
     fs::create_directories(folder_ / sub);
     write_file(folder_ / sub / kResultFile, text);
@@ -60,8 +52,6 @@ class ResultFileTest : public ::testing::Test {
     put(complete ? lines + end_line() + "\n" : lines, name);
     return folder_ / name;
   }
-
-  fs::path folder_;
 };
 
 TEST_F(ResultFileTest, WhatIsWrittenIsRead) {

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <unistd.h>
 
 #include <cstdint>
 #include <filesystem>
@@ -16,17 +15,12 @@
 #include "oni/properties.hpp"
 #include "oni/record_writer.hpp"
 #include "oni/writer.hpp"
+#include "tests/folder_test.hpp"
 
 namespace saccade {
 
-/// A folder of its own for each test, removed afterwards.
-class OniFiles : public ::testing::Test {
+class OniFiles : public FolderTest {
  protected:
-  std::filesystem::path folder_ = std::filesystem::path(::testing::TempDir()) /
-                                  ("saccade_oni_" + std::to_string(::getpid()) + "_" +
-                                   ::testing::UnitTest::GetInstance()->current_test_info()->name());
-  void SetUp() override { std::filesystem::create_directories(folder_); }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
   std::filesystem::path path(const std::string& name) const { return folder_ / name; }
 };
 

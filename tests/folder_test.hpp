@@ -1,0 +1,30 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include <gtest/gtest.h>
+
+namespace saccade {
+
+/// A test with a folder of its own, empty at its start and removed at its end. Its name holds the suite's and
+/// the test's, so that tests of one program may run at the same time.
+class FolderTest : public ::testing::Test {
+ protected:
+  FolderTest() {
+    std::filesystem::remove_all(folder_);
+    std::filesystem::create_directories(folder_);
+  }
+  ~FolderTest() override {
+    std::error_code code;  // a destructor must not throw
+    std::filesystem::remove_all(folder_, code);
+  }
+
+  const std::filesystem::path folder_ = [] {
+    const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
+    return std::filesystem::path(::testing::TempDir()) /
+           (std::string("saccade_") + test->test_suite_name() + "_" + test->name());
+  }();
+};
+
+}  // namespace saccade
