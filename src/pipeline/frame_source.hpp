@@ -36,6 +36,20 @@ struct ReadResult {
   std::string reason;
 };
 
+/// How a live source is doing right now, for people to see.
+struct SourceState {
+  enum class Connection {
+    streaming,  ///< frames come, or nothing speaks against it
+    waiting,    ///< the device is not there yet
+    lost,       ///< the device was there and is gone, or is silent; the source tries again
+  };
+  Connection connection = Connection::streaming;
+  std::string text;  ///< one line for the user: what is waited for, or how the device was lost
+  std::chrono::steady_clock::time_point since{};  ///< of this state
+  std::int64_t losses = 0;                        ///< so far
+  double away_s = 0;                              ///< time without the device so far, in all losses
+};
+
 /// Where frames come from: a sensor, a recording, a folder, a synthetic scene.
 /// Thread safety: one thread at a time calls read() and seek(), except interrupt(), which any thread may
 /// call.
@@ -51,6 +65,9 @@ class FrameSource {
 
   /// The next read() gives frame `index`, or end if there is none. Throws std::logic_error for a live source.
   virtual void seek(std::int64_t index) = 0;
+
+  /// How the source is doing; of interest for live sources. Any thread.
+  virtual SourceState state() const { return {}; }
 
   /// Makes a read() that waits return soon, with timeout.
   virtual void interrupt() noexcept {}
