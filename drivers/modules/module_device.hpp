@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <functional>
 #include <mutex>
 #include <string>
@@ -27,6 +28,7 @@ class ModuleDevice : public oni::driver::DeviceBase {
   OniStatus getProperty(int id, void* data, int* size) final { return properties_.get(id, data, size); }
   OniStatus setProperty(int id, const void* data, int size) final;
   OniBool isPropertySupported(int id) final { return properties_.has(id) ? TRUE : FALSE; }
+  void setPropertyChangedCallback(oni::driver::PropertyChangedCallback callback, void* cookie) final;
   void notifyAllProperties() final;
   OniBool isImageRegistrationModeSupported(OniImageRegistrationMode mode) override;
 
@@ -41,8 +43,10 @@ class ModuleDevice : public oni::driver::DeviceBase {
   PropertyTable properties_;  // filled by the constructors
 
  private:
+  void tell_changed(int id, const void* data, int size);
   std::vector<StreamKind> kinds_;
-  std::vector<OniSensorInfo> sensors_;  // points into kinds_
+  std::vector<OniSensorInfo> sensors_;      // points into kinds_
+  std::atomic<bool> has_listener_ = false;  // OpenNI2 does not always give a callback
   mutable std::mutex mutex_;
   OniImageRegistrationMode registration_ = ONI_IMAGE_REGISTRATION_OFF;  // guarded by mutex_
 };

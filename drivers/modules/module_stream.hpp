@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <mutex>
@@ -57,6 +58,7 @@ class ModuleStream : public oni::driver::StreamBase {
   OniStatus getProperty(int id, void* data, int* size) final { return properties_.get(id, data, size); }
   OniStatus setProperty(int id, const void* data, int size) final;
   OniBool isPropertySupported(int id) final { return properties_.has(id) ? TRUE : FALSE; }
+  void setPropertyChangedCallback(oni::driver::PropertyChangedCallback callback, void* cookie) final;
   void notifyAllProperties() final;
   /// Room for the largest mode, since the mode may be changed after the buffers were made.
   int getRequiredFrameSize() final;
@@ -68,6 +70,7 @@ class ModuleStream : public oni::driver::StreamBase {
   PropertyTable properties_;  // filled by the constructors
 
  private:
+  void tell_changed(int id, const void* data, int size);
   OniStatus set_mode(const OniVideoMode& mode);
   OniStatus set_cropping(const OniCropping& cropping);
   int stride() const;
@@ -75,6 +78,7 @@ class ModuleStream : public oni::driver::StreamBase {
 
   StreamKind kind_;
   std::function<bool(bool)> running_;
+  std::atomic<bool> has_listener_ = false;  // OpenNI2 does not always give a callback
   mutable std::mutex settings_mutex_;
   StreamSettings settings_;    // guarded by settings_mutex_
   std::mutex delivery_mutex_;  // held while a frame is handed on
