@@ -14,7 +14,8 @@ constexpr std::chrono::milliseconds kStuck{500};
 
 Announcer::Announcer() : thread_([this](const std::stop_token& stop) { run(stop); }) {}
 
-Announcer::~Announcer() {
+void Announcer::stop() {
+  if (!thread_.joinable()) return;
   thread_.request_stop();
   {
     std::unique_lock lock(mutex_);
