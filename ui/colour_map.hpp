@@ -29,7 +29,7 @@ struct ValueRange {
   bool operator==(const ValueRange&) const = default;
 };
 
-/// The range of the values above 0 without the lowest and the highest of each `one_in` (>= 2) of them, from a
+/// The range of the values above 0 without the lowest and the highest of each `one_in` (>= 3) of them, from a
 /// sample of every 7th pixel; none if no pixel of the sample is above 0.
 std::optional<ValueRange> percentile_range(const cv::Mat1f& image, std::size_t one_in);
 
