@@ -1,0 +1,38 @@
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <functional>
+#include <map>
+#include <mutex>
+#include <stop_token>
+#include <thread>
+
+namespace saccade {
+
+/// Runs actions on a thread of its own, each at its time. A driver module tells OpenNI2 of devices that come
+/// and go from here, because a program may stop and close the device from inside the call.
+class Announcer {
+ public:
+  using Clock = std::chrono::steady_clock;
+
+  Announcer();
+  /// Waits for the action that runs; those that wait for their time are dropped. Not from inside an action.
+  ~Announcer();
+  Announcer(const Announcer&) = delete;
+  Announcer& operator=(const Announcer&) = delete;
+
+  /// Any thread, actions too.
+  void at(Clock::time_point due, std::function<void()> action);
+  void now(std::function<void()> action) { at(Clock::now(), std::move(action)); }
+
+ private:
+  void run(const std::stop_token& stop);
+
+  std::mutex mutex_;
+  std::condition_variable_any changed_;
+  std::multimap<Clock::time_point, std::function<void()>> actions_;  // guarded by mutex_
+  std::jthread thread_;
+};
+
+}  // namespace saccade

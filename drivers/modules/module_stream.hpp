@@ -1,0 +1,95 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <mutex>
+#include <vector>
+
+#include <Driver/OniDriverAPI.h>
+#include <opencv2/core.hpp>
+
+#include "drivers/modules/property_table.hpp"
+
+namespace saccade {
+
+/// What a stream of a driver module is like, apart from its pixels.
+struct StreamKind {
+  OniSensorType sensor = ONI_SENSOR_DEPTH;
+  std::vector<OniVideoMode> modes;  ///< the first is the one a new stream has
+  int largest_value = 0;            ///< of depth: all readings are below it, else OpenNI's codecs drop them
+};
+
+/// Horizontal and vertical field of view in radians.
+struct FieldOfView {
+  double horizontal_rad = 0, vertical_rad = 0;
+};
+
+/// How a client wants its pictures, at one moment.
+struct StreamSettings {
+  OniVideoMode mode{};
+  OniCropping cropping{};
+  bool mirrored = false;
+};
+
+/// What the driver modules' streams have in common: the properties that OpenNI2 and its programs ask for, and
+/// handing on an image mirrored and cropped as the client wants it. Whoever owns the images derives from it,
+/// or gives it functions to start and stop.
+/// Thread safety: OpenNI2 calls from any thread; deliver() runs on the thread that makes the images, and
+/// stop() returns only when no deliver() is under way.
+class ModuleStream : public oni::driver::StreamBase {
+ public:
+  /// `running(true)` is called when a client starts the stream; false refuses. `running(false)` when it
+  /// stops.
+  ModuleStream(StreamKind kind, std::function<FieldOfView()> field_of_view,
+               std::function<bool(bool)> running);
+
+  const StreamKind& kind() const { return kind_; }
+  StreamSettings settings() const;
+  bool started() const;
+
+  /// Hands on an image of the mode's size, or does nothing if the stream is stopped or the mode has changed
+  /// under way. CV_16UC1 (mm, 0 = no reading; or infrared) or CV_8UC3 (red first). `missing_bytes` makes the
+  /// frame say that it is so much shorter than its size.
+  void deliver(const cv::Mat& image, int index, std::uint64_t timestamp_us, int missing_bytes = 0);
+
+  OniStatus start() final;
+  void stop() final;
+  OniStatus getProperty(int id, void* data, int* size) final { return properties_.get(id, data, size); }
+  OniStatus setProperty(int id, const void* data, int size) final;
+  OniBool isPropertySupported(int id) final { return properties_.has(id) ? TRUE : FALSE; }
+  void setPropertyChangedCallback(oni::driver::PropertyChangedCallback callback, void* cookie) final;
+  void notifyAllProperties() final;
+  /// Room for the largest mode, since the mode may be changed after the buffers were made.
+  int getRequiredFrameSize() final;
+  /// Right for images that are registered already; the others have no calibration to do better.
+  OniStatus convertDepthToColorCoordinates(StreamBase* colour, int depth_x, int depth_y, OniDepthPixel depth,
+                                           int* colour_x, int* colour_y) final;
+
+ protected:
+  PropertyTable properties_;  // filled by the constructors
+
+ private:
+  void tell_changed(int id, const void* data, int size);
+  OniStatus set_mode(const OniVideoMode& mode);
+  OniStatus set_cropping(const OniCropping& cropping);
+  int stride() const;
+  void fill(OniFrame& out, const cv::Mat& image, const StreamSettings& settings) const;
+
+  StreamKind kind_;
+  std::function<bool(bool)> running_;
+  std::atomic<bool> has_listener_ = false;  // OpenNI2 does not always give a callback
+  mutable std::mutex settings_mutex_;
+  StreamSettings settings_;    // guarded by settings_mutex_
+  std::mutex delivery_mutex_;  // held while a frame is handed on
+  bool started_ = false;       // guarded by settings_mutex_; changed with both held
+};
+
+/// Bytes of a pixel; 0 for formats that no module offers.
+int bytes_per_pixel(OniPixelFormat format);
+
+/// The modes of all `sizes` at all `rates`, sizes first.
+std::vector<OniVideoMode> video_modes(OniPixelFormat format, const std::vector<cv::Size>& sizes,
+                                      const std::vector<int>& rates);
+
+}  // namespace saccade

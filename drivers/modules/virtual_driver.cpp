@@ -1,0 +1,131 @@
+// The OpenNI2 driver module libSaccadeVirtual: the source named by SACCADE_VIRTUAL_DEVICE (virtual_spec.hpp)
+// as a live device, to any OpenNI2 program.
+#include <cstdio>
+#include <cstdlib>
+#include <mutex>
+#include <optional>
+#include <string>
+
+#include "core/error.hpp"
+#include "drivers/modules/announcer.hpp"
+#include "drivers/modules/virtual_device.hpp"
+
+// What OpenNI2's macro below makes and deletes the driver with.
+#define XN_NEW(type, ...) new type(__VA_ARGS__)
+#define XN_DELETE(pointer) delete (pointer)
+
+namespace saccade {
+namespace {
+
+constexpr const char* kVariable = "SACCADE_VIRTUAL_DEVICE";
+constexpr const char* kUri = "saccade-virtual://0";
+
+class VirtualDriver final : public oni::driver::DriverBase {
+ public:
+  explicit VirtualDriver(OniDriverServices* services) : DriverBase(services) {}
+
+  OniStatus initialize(oni::driver::DeviceConnectedCallback connected,
+                       oni::driver::DeviceDisconnectedCallback disconnected,
+                       oni::driver::DeviceStateChangedCallback state_changed, void* cookie) override {
+    DriverBase::initialize(connected, disconnected, state_changed, cookie);
+    const char* text = std::getenv(kVariable);
+    if (text == nullptr || *text == '\0') return ONI_STATUS_OK;
+    try {
+      spec_ = parse_virtual(text);
+      open_playable(*spec_);  // now, so that the user learns at once what is wrong
+    } catch (const std::exception& error) {
+      tell(error.what());
+      return ONI_STATUS_OK;  // a driver without devices
+    }
+    announcer_.emplace();
+    if (spec_->late.count() == 0)
+      appear();
+    else
+      announcer_->at(Announcer::Clock::now() + spec_->late, [this] { appear(); });
+    return ONI_STATUS_OK;
+  }
+
+  oni::driver::DeviceBase* deviceOpen(const char* uri, const char*) override {
+    if (std::string(uri) != kUri) return nullptr;
+    if (!present()) {
+      getServices().errorLoggerAppend("the virtual device is not there at the moment");
+      return nullptr;
+    }
+    try {
+      return new VirtualDevice(*spec_, open_playable(*spec_),
+                               {[this] { return present(); }, [this] { count(); },
+                                [this](const std::string& why) {
+                                  tell(why);
+                                  vanish(VirtualSpec::Loss::event);
+                                }});
+    } catch (const std::exception& error) {
+      getServices().errorLoggerAppend("%s", error.what());
+      return nullptr;
+    }
+  }
+
+  void deviceClose(oni::driver::DeviceBase* device) override { delete device; }
+
+  void shutdown() override { announcer_.reset(); }
+
+  // Streams of one device have one clock and one time stamp a frame, whether it is asked for or not.
+  void* enableFrameSync(oni::driver::StreamBase**, int) override { return this; }
+
+ private:
+  static void tell(const std::string& what) {
+    std::fprintf(stderr, "virtual device: %s: %s\n", kVariable, what.c_str());
+  }
+
+  bool present() const {
+    const std::lock_guard lock(mutex_);
+    return present_;
+  }
+
+  // On the announcer's thread, or before there are devices.
+  void appear() {
+    set_present();
+    deviceConnected(&info_);
+  }
+
+  void set_present() {
+    const std::lock_guard lock(mutex_);
+    present_ = true;
+    frames_ = 0;
+  }
+
+  void count() {
+    {
+      const std::lock_guard lock(mutex_);
+      if (!present_ || ++frames_ != spec_->loss_after) return;
+    }
+    vanish(spec_->loss);
+    if (!spec_->back_after) return;
+    announcer_->at(Announcer::Clock::now() + *spec_->back_after, [this] {
+      if (spec_->loss == VirtualSpec::Loss::event) return appear();
+      set_present();
+      if (spec_->loss == VirtualSpec::Loss::state) deviceStateChanged(&info_, ONI_DEVICE_STATE_OK);
+    });
+  }
+
+  void vanish(VirtualSpec::Loss loss) {
+    {
+      const std::lock_guard lock(mutex_);
+      present_ = false;
+    }
+    if (loss == VirtualSpec::Loss::event) announcer_->now([this] { deviceDisconnected(&info_); });
+    if (loss == VirtualSpec::Loss::state)
+      announcer_->now([this] { deviceStateChanged(&info_, ONI_DEVICE_STATE_ERROR); });
+  }
+
+  const OniDeviceInfo info_ = device_info(kUri, "Saccade", "Virtual device", 0, 0);
+  std::optional<VirtualSpec> spec_;
+  mutable std::mutex mutex_;
+  bool present_ = false;     // guarded by mutex_
+  std::int64_t frames_ = 0;  // guarded by mutex_; given since it appeared
+  std::optional<Announcer> announcer_;
+};
+
+}  // namespace
+}  // namespace saccade
+
+ONI_EXPORT_DRIVER(saccade::VirtualDriver)
