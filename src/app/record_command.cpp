@@ -17,6 +17,7 @@
 
 #include "app/interrupt.hpp"
 #include "core/error.hpp"
+#include "core/file.hpp"
 #include "drivers/open_source.hpp"
 #include "oni/recorder.hpp"
 
@@ -29,10 +30,6 @@ using Clock = std::chrono::steady_clock;
 constexpr std::size_t kQueueFrames = 30;  // a second of a camera, for when the disk is busy
 constexpr std::chrono::milliseconds kReadTimeout{500};
 constexpr auto kLinePeriod = std::chrono::milliseconds(200);
-
-std::string megabytes(double bytes) {
-  return bytes < 1e9 ? fmt::format("{:.1f} MB", bytes / 1e6) : fmt::format("{:.2f} GB", bytes / 1e9);
-}
 
 // One `saccade record`, from open source to closed file.
 class RecordRun {
