@@ -17,6 +17,7 @@ struct MapStyle {
   double threshold = 0;  ///< share of the range, 0..1; what is below is not drawn
   std::optional<ValueRange>
       range{};  ///< locked; none = automatic, 0 to the largest value of the smoothed map
+  bool operator==(const MapStyle&) const = default;
 };
 
 /// What the map lies on.
@@ -32,6 +33,7 @@ struct OverlayStyle {
   bool outlines = true;  ///< of the proto-objects
   bool marks = true;     ///< numbered fixations
   bool path = true;      ///< lines from fixation to fixation
+  bool operator==(const OverlayStyle&) const = default;
 };
 
 /// The map as it is looked at: the lines of symmetry are a pixel or two wide, so it is smoothed by a Gaussian

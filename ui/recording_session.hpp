@@ -19,13 +19,13 @@ namespace saccade {
 struct RecordingStatus {
   enum class Phase { idle, recording, closing };
   Phase phase = Phase::idle;
-  std::filesystem::path file;  ///< of this recording or, when idle, of the last one; empty = there was none
-  double seconds = 0;          ///< since its start, wall time
-  std::uint64_t frames = 0;    ///< written
-  std::uint64_t dropped = 0;   ///< because the disk was too slow
+  std::filesystem::path file{};  ///< of this recording or, when idle, of the last one; empty = there was none
+  double seconds = 0;            ///< since its start, wall time
+  std::uint64_t frames = 0;      ///< written
+  std::uint64_t dropped = 0;     ///< because the disk was too slow
   std::uint64_t bytes = 0;
   std::optional<std::uint64_t> free_bytes{};  ///< of the disk; none = not known
-  std::string error;                          ///< why the last one ended early; empty = it did not
+  std::string error{};                        ///< why the last one ended early; empty = it did not
 };
 
 /// Records what the capture thread sees while a person wants it, to .oni files. start(), stop() and status()
