@@ -6,11 +6,13 @@
 #include "drivers/folder_source.hpp"
 #include "drivers/nyu_source.hpp"
 #include "drivers/oni_source.hpp"
+#include "drivers/openni2_source.hpp"
 #include "drivers/synthetic_source.hpp"
 
 namespace saccade {
 
-std::unique_ptr<FrameSource> open_source(const std::string& uri) {
+std::unique_ptr<FrameSource> open_source(const std::string& uri, const SensorSettings& sensor) {
+  if (uri == "openni2" || uri.starts_with("openni2:")) return std::make_unique<OpenNi2Source>(uri, sensor);
   if (uri.starts_with("synthetic:")) return std::make_unique<SyntheticSource>(uri);
   if (std::filesystem::is_directory(uri)) return open_folder(uri);
   if (std::filesystem::path(uri).extension() == ".oni") return std::make_unique<OniSource>(uri);
@@ -18,7 +20,8 @@ std::unique_ptr<FrameSource> open_source(const std::string& uri) {
   if (std::filesystem::exists(uri))
     throw unreadable("not a kind of file that can be read", uri,
                      "a folder of images, an .oni recording or the .mat of NYU Depth V2 is expected");
-  throw unreadable("no such source", uri, "a folder of images, FILE.oni, FILE.mat or synthetic:NAME");
+  throw unreadable("no such source", uri,
+                   "openni2, a folder of images, FILE.oni, FILE.mat or synthetic:NAME");
 }
 
 }  // namespace saccade

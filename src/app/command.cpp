@@ -1,5 +1,7 @@
 #include "app/command.hpp"
 
+#include <unistd.h>
+
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
@@ -19,6 +21,21 @@ void tell_notes(const SourceInfo& source, const Settings& settings) {
   if (!settings.intrinsics && camera.origin == IntrinsicsOrigin::guess)
     spdlog::warn("{}: no calibration, guessing fx={} fy={} cx={} cy={} (give --intrinsics fx,fy,cx,cy)",
                  source.uri, camera.fx, camera.fy, camera.cx, camera.cy);
+}
+
+void tell_state(const SourceState& state) {
+  switch (state.connection) {
+    case SourceState::Connection::streaming:
+      if (state.losses > 0)
+        spdlog::info("{} streams again; {} loss{}, {:.1f} s away in all", state.text, state.losses,
+                     state.losses == 1 ? "" : "es", state.away_s);
+      return;
+    case SourceState::Connection::waiting:
+      if (::isatty(STDERR_FILENO) == 1) spdlog::info("{}", state.text);
+      return;
+    case SourceState::Connection::lost:
+      spdlog::warn("{}", state.text);
+  }
 }
 
 void fit_default_levels(Settings& settings, SourceInfo& source) {

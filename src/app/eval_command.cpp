@@ -225,7 +225,7 @@ void eval_merge(const EvalArguments& arguments, const Settings& settings) {
 void add_eval_command(CLI::App& app, std::function<void()>& action) {
   struct State {
     explicit State(CLI::App& command)
-        : options(command, {"model", "kernel", "selector", "fixations", "dump"}) {}
+        : options(command, sensor_keys_and({"model", "kernel", "selector", "fixations", "dump"})) {}
     EvalArguments arguments;
     SettingsOptions options;
   };

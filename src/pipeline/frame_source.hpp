@@ -9,6 +9,7 @@
 #include <opencv2/core.hpp>
 
 #include "core/frame.hpp"
+#include "pipeline/sensor_controls.hpp"
 
 namespace saccade {
 
@@ -68,6 +69,9 @@ class FrameSource {
 
   /// How the source is doing; of interest for live sources. Any thread.
   virtual SourceState state() const { return {}; }
+
+  /// What can be changed on an open sensor; nullptr for other sources.
+  virtual SensorControls* controls() { return nullptr; }
 
   /// Makes a read() that waits return soon, with timeout.
   virtual void interrupt() noexcept {}

@@ -7,13 +7,17 @@
 namespace saccade {
 namespace {
 
+using Clock = std::chrono::steady_clock;
+
 constexpr std::chrono::milliseconds kReadTimeout{100};
 
-// Room for every slot, the end mark and one wish to stop: a push never waits.
-std::size_t ring_capacity(const PipelineOptions& options) {
-  if (options.slots < 2 || options.selection.every < 1 || options.selection.start < 0)
-    throw std::invalid_argument("Pipeline: slots >= 2, every >= 1 and start >= 0 expected");
-  return static_cast<std::size_t>(options.slots) + 2;
+std::vector<std::unique_ptr<Result>> make_slots(const PipelineOptions& options) {
+  const int least = options.policy == FramePolicy::newest ? 3 : 2;
+  if (options.slots < least || options.selection.every < 1 || options.selection.start < 0)
+    throw std::invalid_argument("Pipeline: slots >= 2 (newest: 3), every >= 1 and start >= 0 expected");
+  std::vector<std::unique_ptr<Result>> slots;
+  for (int i = 0; i < options.slots; ++i) slots.push_back(std::make_unique<Result>());
+  return slots;
 }
 
 }  // namespace
@@ -22,18 +26,19 @@ void ReturnSlot::operator()(Result* result) const {
   if (result != nullptr) pipeline->give_back(result);
 }
 
+// A ring has room for every slot, the end mark and one wish to stop: a push never waits.
 Pipeline::Pipeline(std::unique_ptr<FrameSource> source, std::unique_ptr<FrameProcessor> processor,
                    PipelineOptions options)
     : source_(std::move(source)),
       processor_(std::move(processor)),
       options_(std::move(options)),
-      free_(ring_capacity(options_)),
-      captured_(ring_capacity(options_)),
-      computed_(ring_capacity(options_)) {
-  for (int i = 0; i < options_.slots; ++i) {
-    slots_.push_back(std::make_unique<Result>());
-    free_.push(slots_.back().get());
-  }
+      slots_(make_slots(options_)),
+      free_(slots_.size() + 2),
+      captured_(slots_.size() + 2),
+      computed_(slots_.size() + 2),
+      newest_(slots_[0].get()) {
+  // With `newest` two slots are in other hands already: one in the mailbox, one with capture.
+  for (std::size_t i = keeps_newest() ? 2 : 0; i < slots_.size(); ++i) free_.push(slots_[i].get());
   compute_thread_ = std::jthread([this] { compute(); });
   capture_thread_ = std::jthread([this] { capture(); });
 }
@@ -46,10 +51,13 @@ Pipeline::~Pipeline() {
 
 ResultHandle Pipeline::next() {
   if (!ended_) {
-    if (Result* slot = computed_.pop()) return {slot, ReturnSlot{this}};
+    if (Result* slot = computed_.pop()) {
+      latency_.add(std::chrono::duration<double, std::milli>(Clock::now() - slot->captured_at).count());
+      return {slot, ReturnSlot{this}};
+    }
     ended_ = true;
   }
-  const std::lock_guard lock(mutex_);
+  const std::lock_guard lock(error_mutex_);
   if (error_) std::rethrow_exception(std::exchange(error_, nullptr));
   return {nullptr, ReturnSlot{this}};
 }
@@ -57,12 +65,7 @@ ResultHandle Pipeline::next() {
 void Pipeline::stop() noexcept {
   if (stopping_.exchange(true)) return;
   source_->interrupt();
-  give_back(nullptr);  // wakes a capture that waits for a slot
-}
-
-Ledger Pipeline::ledger() const {
-  const std::lock_guard lock(mutex_);
-  return ledger_;
+  give_back(nullptr);  // wakes whoever waits for a slot
 }
 
 void Pipeline::give_back(Result* slot) noexcept {
@@ -72,15 +75,10 @@ void Pipeline::give_back(Result* slot) noexcept {
 
 void Pipeline::fail(std::exception_ptr error) noexcept {
   {
-    const std::lock_guard lock(mutex_);
+    const std::lock_guard lock(error_mutex_);
     if (!error_) error_ = std::move(error);
   }
   stop();
-}
-
-void Pipeline::count(std::int64_t Ledger::*field) noexcept {
-  const std::lock_guard lock(mutex_);
-  ++(ledger_.*field);
 }
 
 void Pipeline::capture() noexcept {
@@ -89,61 +87,93 @@ void Pipeline::capture() noexcept {
   } catch (...) {
     fail(std::current_exception());
   }
-  captured_.push(nullptr);
+  if (keeps_newest())
+    newest_.close();
+  else
+    captured_.push(nullptr);
 }
 
 void Pipeline::capture_frames() {
   const FrameSelection& selection = options_.selection;
   const bool seekable = !source_->info().live;
+  const std::int64_t limit = keeps_newest() ? 0 : selection.limit;
   std::int64_t wanted = selection.start, taken = 0;
   bool at_wanted = wanted == 0;
-  Result* slot = free_.pop();
-  while (slot != nullptr && !stopping_ && (selection.limit == 0 || taken < selection.limit)) {
+  Result* slot = keeps_newest() ? slots_[1].get() : free_.pop();
+  while (slot != nullptr && !stopping_ && (limit == 0 || taken < limit)) {
     if (seekable && !at_wanted) source_->seek(wanted);
     slot->times = {};
     const ReadResult read = read_into(*slot);
     if (read.status == ReadStatus::end) return;
+    watch_state(read.status);
     if (read.status == ReadStatus::timeout) continue;
     if (!seekable && slot->frame.index < wanted) continue;
     const std::int64_t index = slot->frame.index;
-    wanted += selection.every;
+    wanted = (seekable ? wanted : index) + selection.every;
     at_wanted = selection.every == 1;
     ++taken;
-    count(&Ledger::captured);
+    counters_.count(LedgerCounters::captured);
     if (read.status == ReadStatus::rejected) {
-      count(&Ledger::rejected);
+      counters_.count(LedgerCounters::rejected);
       if (options_.on_rejected) options_.on_rejected(index, read.reason);
       continue;
     }
-    captured_.push(slot);
-    slot = free_.pop();
+    slot = hand_over(slot);
   }
 }
 
 ReadResult Pipeline::read_into(Result& slot) {
   const StageTimer timer(slot.times, Stage::capture);
   ReadResult read = source_->read(slot.frame, kReadTimeout);
+  slot.captured_at = Clock::now();
   if (options_.intrinsics) slot.frame.intrinsics = *options_.intrinsics;
   return read;
 }
 
+// A state changes only where the source has waited, so that a frame that comes in time costs nothing.
+void Pipeline::watch_state(ReadStatus status) {
+  const bool waited = std::exchange(waited_, status == ReadStatus::timeout);
+  if (!options_.on_state || (!waited && !waited_)) return;
+  const SourceState state = source_->state();
+  if (std::exchange(told_, state.connection) != state.connection) options_.on_state(state);
+}
+
+// Gives a captured frame to the compute thread; returns the slot for the next one, null to end.
+Result* Pipeline::hand_over(Result* slot) {
+  if (!keeps_newest()) {
+    captured_.push(slot);
+    return free_.pop();
+  }
+  const auto [next, replaced] = newest_.put(slot);
+  if (replaced) counters_.count(LedgerCounters::replaced);
+  return next;
+}
+
 void Pipeline::compute() noexcept {
-  while (Result* slot = captured_.pop()) {
-    if (stopping_) {
-      count(&Ledger::dropped);
+  Result* spare = keeps_newest() ? free_.pop() : nullptr;
+  while (Result* slot = keeps_newest() ? newest_.take(spare) : captured_.pop()) {
+    if (stopping_ || !process(*slot)) {
+      counters_.count(LedgerCounters::stopped);
+      spare = slot;
       continue;
     }
-    try {
-      processor_->process(*slot);
-    } catch (...) {
-      count(&Ledger::dropped);
-      fail(std::current_exception());
-      continue;
-    }
-    count(&Ledger::processed);
+    counters_.count(LedgerCounters::processed);
     computed_.push(slot);
+    if (!keeps_newest()) continue;
+    if (++results_ == options_.selection.limit) stop();
+    spare = free_.pop();  // null only when stopped: capture then ends, whatever it gets for it
   }
   computed_.push(nullptr);
+}
+
+bool Pipeline::process(Result& slot) noexcept {
+  try {
+    processor_->process(slot);
+    return true;
+  } catch (...) {
+    fail(std::current_exception());
+    return false;
+  }
 }
 
 }  // namespace saccade

@@ -13,9 +13,11 @@
 
 #include "pipeline/frame_source.hpp"
 #include "pipeline/ledger.hpp"
+#include "pipeline/mailbox.hpp"
 #include "pipeline/processor.hpp"
 #include "pipeline/result.hpp"
 #include "pipeline/ring.hpp"
+#include "pipeline/stage_statistics.hpp"
 
 namespace saccade {
 
@@ -23,25 +25,40 @@ namespace saccade {
 struct FrameSelection {
   std::int64_t start = 0;  ///< index of the first
   std::int64_t every = 1;  ///< each n-th from there, >= 1
-  std::int64_t limit = 0;  ///< at most so many, 0 = all
+  std::int64_t limit = 0;  ///< at most so many, 0 = all: captured ones (every_frame) or results (newest)
+};
+
+enum class FramePolicy {
+  every_frame,  ///< all frames, in order; capture waits while no slot is free
+  newest,       ///< capture never waits; a frame that a newer one overtakes before its turn is dropped
 };
 
 struct PipelineOptions {
   FrameSelection selection;
   std::optional<Intrinsics> intrinsics;  ///< instead of what the source says
-  int slots = 4;                         ///< frames in memory at once, >= 2
+  FramePolicy policy = FramePolicy::every_frame;
+  /// Frames in memory at once: >= 2, and >= 3 for `newest`, of which the consumer may hold all but two.
+  int slots = 4;
   /// Called on the capture thread for each frame that cannot be used.
   std::function<void(std::int64_t index, const std::string& reason)> on_rejected;
+  /// Called on the capture thread when a source that waits tells something new: its device is lost, or back.
+  std::function<void(const SourceState&)> on_state;
 };
 
-/// From a source to results, every frame and in order:
+/// From a source to results, in order:
 ///
-///     capture thread --ring--> compute thread (+ its worker pool) --ring--> next(), the consumer's thread
-///           ^----------------------- slots given back -----------------------------'
+///     every_frame:  capture thread --ring--> compute thread (+ its pool) --ring--> next(), consumer's thread
+///                         ^------------------- slots given back --------------------'
+///     newest:       capture thread <-mailbox-> compute thread (+ its pool) --ring--> next()
+///                                                ^-------- slots given back ----------'
 ///
-/// A fixed number of slots circulates; when all are in use capture waits (back-pressure), so nothing is
-/// dropped while it runs and nothing is allocated once the slots have been filled. An exception of either
-/// thread ends the stream and reaches the consumer from next(), after the results that came before it.
+/// A fixed number of slots circulates, so nothing is allocated once they have been filled. every_frame: when
+/// all are in use capture waits (back-pressure), and nothing is dropped while it runs. newest: capture and
+/// compute each hold a slot and swap it for the one in the mailbox; compute takes the newest frame only when
+/// it has a free slot for its next result, so that the time from capture to result is at most that of one
+/// frame to come and one to be computed, as long as the consumer keeps up.
+/// An exception of either thread ends the stream and reaches the consumer from next(), after the results that
+/// came before it.
 class Pipeline {
  public:
   /// Starts at once. Throws std::invalid_argument for options out of range.
@@ -62,18 +79,30 @@ class Pipeline {
   void stop() noexcept;
 
   /// A consistent snapshot. Any thread. When next() has returned empty or thrown, nothing is in flight.
-  Ledger ledger() const;
+  Ledger ledger() const { return counters_.snapshot(); }
+
+  /// From the capture of a frame to its result from next(), of all results so far. Thread of next() only.
+  const DurationHistogram& latency() const { return latency_; }
+
+  /// How the source is doing. Any thread.
+  SourceState source_state() const { return source_->state(); }
+
+  /// What can be changed on the source's sensor; nullptr if it has none. Lives as long as the pipeline.
+  SensorControls* controls() { return source_->controls(); }
 
  private:
   friend struct ReturnSlot;
 
+  bool keeps_newest() const { return options_.policy == FramePolicy::newest; }
   void capture() noexcept;
   void capture_frames();
   ReadResult read_into(Result& slot);
+  void watch_state(ReadStatus status);
+  Result* hand_over(Result* slot);
   void compute() noexcept;
+  bool process(Result& slot) noexcept;
   void give_back(Result* slot) noexcept;
   void fail(std::exception_ptr error) noexcept;
-  void count(std::int64_t Ledger::*field) noexcept;
 
   std::unique_ptr<FrameSource> source_;
   std::unique_ptr<FrameProcessor> processor_;
@@ -81,12 +110,18 @@ class Pipeline {
   std::vector<std::unique_ptr<Result>> slots_;
   // In each ring a null pointer is the end mark (in free_: the wish to stop).
   Ring<Result*> free_, captured_, computed_;
+  Mailbox<Result> newest_;
   std::mutex give_back_mutex_;  // any thread gives slots back; the ring allows one producer at a time
   std::atomic<bool> stopping_ = false;
-  mutable std::mutex mutex_;
-  Ledger ledger_;             // guarded by mutex_
-  std::exception_ptr error_;  // guarded by mutex_; the first
-  bool ended_ = false;        // consumer's thread only
+  LedgerCounters counters_;
+  std::int64_t results_ = 0;  // compute thread only
+  // Capture thread only: what on_state was told, and whether the last read() had to wait for nothing.
+  SourceState::Connection told_ = SourceState::Connection::streaming;
+  bool waited_ = false;
+  std::mutex error_mutex_;
+  std::exception_ptr error_;   // guarded by error_mutex_; the first
+  bool ended_ = false;         // consumer's thread only
+  DurationHistogram latency_;  // consumer's thread only
   std::jthread compute_thread_, capture_thread_;
 };
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <memory>
 
 #include "attention/attention.hpp"
@@ -15,6 +16,7 @@ struct Result {
   SaliencyMaps maps;
   Attention attention;
   StageTimes times;
+  std::chrono::steady_clock::time_point captured_at;  ///< when the source had delivered the frame
 };
 
 class Pipeline;
@@ -25,8 +27,8 @@ struct ReturnSlot {
   void operator()(Result* result) const;
 };
 
-/// The consumer's hold on one result. Hold few and not for long: a held slot is one that capture waits for.
-/// Must not outlive the pipeline.
+/// The consumer's hold on one result. Hold few and not for long: a held slot is one that the pipeline waits
+/// for. Must not outlive the pipeline.
 using ResultHandle = std::unique_ptr<Result, ReturnSlot>;
 
 }  // namespace saccade

@@ -1,51 +1,17 @@
 #include "pipeline/pipeline.hpp"
 
-#include <atomic>
 #include <chrono>
 #include <set>
 #include <stdexcept>
 #include <thread>
 #include <vector>
 
-#include <gtest/gtest.h>
-
-#include "core/error.hpp"
+#include "pipeline_parts.hpp"
 
 namespace saccade {
 namespace {
 
 using std::chrono::milliseconds;
-
-// Frames whose depth is their index; some are rejected, some fail.
-class CountingSource : public FrameSource {
- public:
-  explicit CountingSource(std::int64_t count, std::set<std::int64_t> rejected = {},
-                          std::int64_t fails_at = -1)
-      : rejected_(std::move(rejected)), fails_at_(fails_at) {
-    info_.size = {8, 8};
-    info_.frame_count = count;
-  }
-
-  const SourceInfo& info() const override { return info_; }
-
-  ReadResult read(Frame& frame, milliseconds) override {
-    if (next_ >= *info_.frame_count) return {ReadStatus::end, ""};
-    if (next_ == fails_at_) throw failed("source failed", "here", "nothing");
-    frame.index = next_++;
-    frame.depth_mm.create(8, 8);
-    frame.depth_mm = static_cast<float>(frame.index);
-    if (rejected_.contains(frame.index)) return {ReadStatus::rejected, "bad"};
-    return {ReadStatus::frame, ""};
-  }
-
-  void seek(std::int64_t index) override { next_ = index; }
-
- private:
-  SourceInfo info_;
-  std::int64_t next_ = 0;
-  std::set<std::int64_t> rejected_;
-  std::int64_t fails_at_;
-};
 
 // A live source that gives one frame and then nothing, ever.
 class SilentSource : public CountingSource {
@@ -59,21 +25,6 @@ class SilentSource : public CountingSource {
   }
 };
 
-class CopyProcessor : public FrameProcessor {
- public:
-  explicit CopyProcessor(milliseconds delay = {}, std::int64_t fails_at = -1)
-      : delay_(delay), fails_at_(fails_at) {}
-  void process(Result& result) override {
-    if (result.frame.index == fails_at_) throw failed("processor failed", "here", "nothing");
-    std::this_thread::sleep_for(delay_);
-    result.frame.depth_mm.copyTo(result.maps.master);
-  }
-
- private:
-  milliseconds delay_;
-  std::int64_t fails_at_;
-};
-
 std::vector<std::int64_t> indices(Pipeline& pipeline) {
   std::vector<std::int64_t> seen;
   while (const ResultHandle result = pipeline.next()) {
@@ -82,8 +33,6 @@ std::vector<std::int64_t> indices(Pipeline& pipeline) {
   }
   return seen;
 }
-
-void expect_balanced(const Ledger& ledger) { EXPECT_EQ(ledger.in_flight(), 0); }
 
 TEST(Pipeline, GivesEveryFrameInOrder) {
   Pipeline pipeline(std::make_unique<CountingSource>(500), std::make_unique<CopyProcessor>(), {});
