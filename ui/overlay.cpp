@@ -1,12 +1,13 @@
 #include "ui/overlay.hpp"
 
 #include <algorithm>
+#include <array>
+#include <span>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include <opencv2/imgproc.hpp>
-
-#include "ui/colour_map.hpp"
 
 namespace saccade {
 namespace {
@@ -15,35 +16,6 @@ const cv::Scalar kMark(255, 255, 255), kFirstMark(80, 255, 80), kShadow(0, 0, 0)
 
 // Marks and lines grow with the picture: 1 at 640 pixels wide.
 double mark_size(const cv::Mat3b& picture) { return std::clamp(picture.cols / 640.0, 0.5, 4.0); }
-
-// The map as it is looked at: its lines are a pixel or two wide, so it is smoothed, and scaled to 0..1 after
-// that.
-cv::Mat1f heat(const cv::Mat1f& saliency) {
-  constexpr double kSigmaOfWidth = 1.0 / 200;
-  cv::Mat1f smooth;
-  cv::GaussianBlur(saliency, smooth, {}, std::max(1.0, saliency.cols * kSigmaOfWidth));
-  double largest = 0;
-  cv::minMaxLoc(smooth, nullptr, &largest);
-  return largest > 0 ? cv::Mat1f(smooth / largest) : smooth;
-}
-
-// out = background * (1 - a) + turbo(v) * a with v = sqrt(heat) and a = opacity * v, so that the unsalient
-// stays as it was and the weak is seen beside the strong.
-void blend_map(cv::Mat3b& picture, const cv::Mat1f& saliency, double opacity) {
-  cv::Mat1f shown;
-  cv::sqrt(heat(saliency), shown);
-  cv::Mat1b level;
-  shown.convertTo(level, CV_8U, 255);
-  cv::Mat3b colours;
-  cv::applyColorMap(level, colours, cv::COLORMAP_TURBO);
-  for (int r = 0; r < picture.rows; ++r)
-    for (int c = 0; c < picture.cols; ++c) {
-      const int a = cvRound(opacity * level(r, c));
-      cv::Vec3b& p = picture(r, c);
-      const cv::Vec3b& q = colours(r, c);
-      for (int i = 0; i < 3; ++i) p[i] = static_cast<std::uint8_t>((p[i] * (255 - a) + q[i] * a + 127) / 255);
-    }
-}
 
 // The outer contour of each proto-object; pixels without depth inside it are not drawn as holes.
 void draw_outlines(cv::Mat3b& picture, const Attention& attention) {
@@ -71,12 +43,16 @@ void draw_label(cv::Mat3b& picture, const std::string& text, cv::Point centre, d
               cv::LINE_AA);
 }
 
-void draw_marks(cv::Mat3b& picture, const std::vector<Fixation>& fixations) {
-  const double size = mark_size(picture);
-  const int radius = cvRound(11 * size), line = std::max(1, cvRound(size));
+void draw_path(cv::Mat3b& picture, const std::vector<Fixation>& fixations) {
+  const int line = std::max(1, cvRound(mark_size(picture)));
   for (std::size_t i = 1; i < fixations.size(); ++i)
     cv::line(picture, {fixations[i - 1].col, fixations[i - 1].row}, {fixations[i].col, fixations[i].row},
              kMark, line, cv::LINE_AA);
+}
+
+void draw_marks(cv::Mat3b& picture, const std::vector<Fixation>& fixations) {
+  const double size = mark_size(picture);
+  const int radius = cvRound(11 * size), line = std::max(1, cvRound(size));
   for (std::size_t i = fixations.size(); i-- > 0;) {  // the first on top
     const cv::Point centre(fixations[i].col, fixations[i].row);
     const cv::Scalar& colour = i == 0 ? kFirstMark : kMark;
@@ -88,12 +64,77 @@ void draw_marks(cv::Mat3b& picture, const std::vector<Fixation>& fixations) {
 
 }  // namespace
 
+cv::Mat1f smooth_for_looking(const cv::Mat1f& saliency) {
+  constexpr double kSigmaOfWidth = 1.0 / 200;
+  cv::Mat1f smooth;
+  cv::GaussianBlur(saliency, smooth, {}, std::max(1.0, saliency.cols * kSigmaOfWidth));
+  return smooth;
+}
+
+ValueRange shown_range(const cv::Mat1f& smooth, const MapStyle& style) {
+  if (style.range) return *style.range;
+  double largest = 0;
+  cv::minMaxLoc(smooth, nullptr, &largest);
+  return {0, static_cast<float>(largest)};
+}
+
+cv::Mat1b shown_strength(const cv::Mat1f& smooth, const MapStyle& style) {
+  const ValueRange range = shown_range(smooth, style);
+  const double low = static_cast<double>(range.low), span = static_cast<double>(range.high) - low;
+  if (!(span > 0)) return cv::Mat1b(smooth.size(), std::uint8_t{0});
+  cv::Mat1f place;
+  smooth.convertTo(place, CV_32F, 1 / span, -low / span);
+  cv::Mat1f root;
+  cv::sqrt(cv::max(place, 0.0F), root);
+  cv::Mat1b strength;
+  root.convertTo(strength, CV_8U, 255);
+  if (style.threshold > 0) strength.setTo(0, place < style.threshold);
+  return strength;
+}
+
+cv::Mat3b draw_background(const Frame& frame, const OverlayStyle& style) {
+  if (frame.colour.empty() || style.background == Background::depth)
+    return depth_picture(frame.depth_mm, style.depth);
+  return frame.colour.clone();
+}
+
+void blend_map(cv::Mat3b& picture, const cv::Mat1b& strength, const MapStyle& style) {
+  if (strength.size() != picture.size())
+    throw std::invalid_argument("blend_map: picture and map differ in size");
+  const PaletteColours& colours = colours_of(style.palette);
+  struct Share {
+    int of_picture;
+    std::array<int, 3> of_map;  // premultiplied, with the half that rounds
+  };
+  std::array<Share, 256> shares;
+  for (int i = 0; i < 256; ++i) {
+    const int a = cvRound(style.opacity * i);
+    const cv::Vec3b& q = colours[static_cast<std::size_t>(i)];
+    shares[static_cast<std::size_t>(i)] = {255 - a, {q[0] * a + 127, q[1] * a + 127, q[2] * a + 127}};
+  }
+  for (int r = 0; r < picture.rows; ++r) {
+    const std::uint8_t* level = strength[r];
+    for (cv::Vec3b& p : std::span(picture[r], static_cast<std::size_t>(picture.cols))) {
+      const Share& share = shares[*level++];
+      for (int i = 0; i < 3; ++i)
+        p[i] = static_cast<std::uint8_t>(
+            (p[i] * share.of_picture + share.of_map[static_cast<std::size_t>(i)]) / 255);
+    }
+  }
+}
+
+void draw_attention(cv::Mat3b& picture, const Attention& attention, const OverlayStyle& style) {
+  if (style.outlines) draw_outlines(picture, attention);
+  if (style.path) draw_path(picture, attention.fixations);
+  if (style.marks) draw_marks(picture, attention.fixations);
+}
+
 cv::Mat3b draw_overlay(const Frame& frame, const cv::Mat1f& saliency, const Attention& attention,
                        const OverlayStyle& style) {
-  cv::Mat3b picture = frame.colour.empty() ? depth_picture(frame.depth_mm) : cv::Mat3b(frame.colour.clone());
-  blend_map(picture, saliency, style.map_opacity);
-  if (style.outlines) draw_outlines(picture, attention);
-  if (style.marks) draw_marks(picture, attention.fixations);
+  cv::Mat3b picture = draw_background(frame, style);
+  if (style.map.opacity > 0)
+    blend_map(picture, shown_strength(smooth_for_looking(saliency), style.map), style.map);
+  draw_attention(picture, attention, style);
   return picture;
 }
 

@@ -92,11 +92,11 @@ cv::Mat3b draw_example(const Frame& frame, const Look& look, const std::vector<E
     shown.fixations.push_back({.row = point.row, .col = point.col, .position_mm = {}, .proto_object = {}});
   }
   Frame outlined = frame;
-  outlined.colour = draw_overlay(frame, look.maps.master, {}, {.outlines = false, .marks = false});
+  outlined.colour = draw_overlay(frame, look.maps.master, {}, {.outlines = false, .marks = false, .path = false});
   draw_objects(outlined.colour, frame.truth.labels,
                {points.begin(), points.begin() + static_cast<std::ptrdiff_t>(shown.fixations.size())});
   cv::Mat3b picture =
-      draw_overlay(outlined, look.maps.master, shown, {.map_opacity = 0, .outlines = false, .marks = true});
+      draw_overlay(outlined, look.maps.master, shown, {.map = {.opacity = 0}, .outlines = false});
   if (picture.cols > kWidth)
     cv::resize(picture, picture, {kWidth, std::max(1, picture.rows * kWidth / picture.cols)}, 0, 0,
                cv::INTER_AREA);

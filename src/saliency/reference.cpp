@@ -18,6 +18,7 @@ Vector3d at(const cv::Mat3d& image, int row, int col) {
 
 // Position `i` of a line of `n` pixels, reflected at its ends without repeating them.
 int reflect(int i, int n) {
+  if (i >= 0 && i < n) return i;
   if (n == 1) return 0;
   const int period = 2 * (n - 1);
   const int m = ((i % period) + period) % period;
@@ -102,6 +103,7 @@ PlaneSymmetry symmetry_of_plane(const Window& window, const Vector3d& p, const V
   if (front.count == 0 || back.count == 0) return result;
   front.point /= front.count;  // Eq. (5)
   back.point /= back.count;    // Eq. (6)
+  result.verdict = PlaneVerdict::no_direction;
   if (front.normal.isZero(0) || back.normal.isZero(0) || front.point == back.point) return result;
   const Vector3d n1 = front.normal.normalized();               // Eq. (10)
   const Vector3d n2 = back.normal.normalized();                // Eq. (11)
@@ -123,7 +125,9 @@ PlaneSymmetry symmetry_of_plane(const Window& window, const Vector3d& p, const V
   result.omega_2 = (1 - std::cos(a1 + a2)) * (1 - std::cos(a1 - a2));  // Eq. (12)
 
   // Differs from Eq. (14), which as printed would also erase convex patches: the normals must lean away.
+  result.verdict = PlaneVerdict::not_convex;
   if (!(result.cos_1 > 0 && result.cos_2 < 0)) return result;
+  result.verdict = cross.isZero(0) ? PlaneVerdict::flat : PlaneVerdict::scores;
   result.score =
       std::exp(-(result.delta_D_mm + result.delta_d_mm) / lambda_mm) * result.omega_1 * result.omega_2;
   return result;  // Eqs. (3, 13)
@@ -166,14 +170,6 @@ double itti_weight(const cv::Mat1d& map, double maximum) {
     }
   const double mean = count ? sum / count : 0;
   return (1 - mean) * (1 - mean) / maximum;
-}
-
-double level_weight(const cv::Mat1d& map, LevelNormalisation kind) {
-  if (kind == LevelNormalisation::none) return 1;
-  double maximum = 0;
-  cv::minMaxLoc(map, nullptr, &maximum);
-  if (maximum <= 0) return 1;
-  return kind == LevelNormalisation::max ? 1 / maximum : itti_weight(map, maximum);
 }
 
 }  // namespace
@@ -233,6 +229,14 @@ cv::Mat1d symmetry_map(const Level& level, const Symmetry3dParams& params) {
     for (int c = 0; c < map.cols; ++c)
       if (const auto pixel = symmetry_at(level, r, c, params)) map(r, c) = pixel->score();
   return map;
+}
+
+double level_weight(const cv::Mat1d& map, LevelNormalisation kind) {
+  if (kind == LevelNormalisation::none) return 1;
+  double maximum = 0;
+  cv::minMaxLoc(map, nullptr, &maximum);
+  if (maximum <= 0) return 1;
+  return kind == LevelNormalisation::max ? 1 / maximum : itti_weight(map, maximum);
 }
 
 cv::Mat1d master_map(const std::vector<cv::Mat1d>& maps, int first_level, cv::Size full,

@@ -30,9 +30,19 @@ cv::Mat1d halve(const cv::Mat1d& depth_mm);
 /// Points and normals of one level from its depth (SPEC 1.1 and 1.3).
 Level make_level(const cv::Mat1d& depth_mm, const Intrinsics& camera_of_level);
 
+/// How far the operator got with a plane before its score was certain.
+enum class PlaneVerdict {
+  half_empty,    ///< no point on one side
+  no_direction,  ///< mean points that coincide or mean normals that vanish: l, n' or n'' is undefined
+  not_convex,    ///< the gate of Eq. (14) is shut
+  flat,          ///< the halves' mean normals are parallel, N of Eq. (8) is undefined
+  scores,
+};
+
 /// What one candidate plane says at one pixel; for tests and for explaining a pixel.
 struct PlaneSymmetry {
   Eigen::Vector3d gamma;  ///< the plane's unit normal
+  PlaneVerdict verdict = PlaneVerdict::half_empty;
   double score = 0;       ///< exp(-(Delta D + Delta d)/lambda) * omega_1 * omega_2, 0 if the gate is shut
   double delta_D_mm = 0;  ///< Eq. (4)
   double delta_d_mm = 0;  ///< Eq. (7)
@@ -52,6 +62,10 @@ struct PixelSymmetry {
 /// The operator at pixel (row, col); std::nullopt where the pixel is not valid.
 std::optional<PixelSymmetry> symmetry_at(const Level& level, int row, int col,
                                          const Symmetry3dParams& params);
+
+/// What the map of a level is multiplied by before it is added to the master map: 1, 1/maximum, or Itti's
+/// N(.).
+double level_weight(const cv::Mat1d& map, LevelNormalisation kind);
 
 /// The operator at every pixel of one level: h x w, 0..4.
 cv::Mat1d symmetry_map(const Level& level, const Symmetry3dParams& params);

@@ -1,30 +1,13 @@
 #include "ui/overlay.hpp"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
-#include "ui/colour_map.hpp"
+#include <opencv2/imgproc.hpp>
 
 namespace saccade {
 namespace {
-
-TEST(ColourMap, GrayIsTheRootOfTheShareOfTheLargestValue) {
-  const cv::Mat1b gray = to_gray((cv::Mat1f(1, 3) << 0, 0.5, 2));
-  EXPECT_EQ(gray(0), 0);
-  EXPECT_EQ(gray(1), 128);
-  EXPECT_EQ(gray(2), 255);
-  EXPECT_EQ(cv::countNonZero(to_gray(cv::Mat1f(4, 4, 0.0F))), 0);
-}
-
-TEST(ColourMap, NearDepthIsBrighterAndNoReadingIsBlack) {
-  cv::Mat1f depth(20, 20, 1000.0F);
-  depth.rowRange(10, 20) = 2000.0F;
-  depth(0, 0) = 0;
-  const cv::Mat3b picture = depth_picture(depth);
-  EXPECT_GT(picture(5, 5)[0], picture(15, 5)[0]);
-  EXPECT_GT(picture(15, 5)[0], 0);
-  EXPECT_EQ(picture(0, 0), cv::Vec3b());
-  EXPECT_EQ(cv::norm(depth_picture(cv::Mat1f(8, 8, 0.0F))), 0);
-}
 
 class OverlayTest : public ::testing::Test {
  protected:
@@ -55,9 +38,85 @@ TEST_F(OverlayTest, MarksFixationsOutlinesObjectsAndColoursTheMap) {
   EXPECT_GT(picture(100, 140)[2], 60) << "red is most salient";
 
   OverlayStyle plain;
-  plain.marks = plain.outlines = false;
-  plain.map_opacity = 0;
+  plain.marks = plain.outlines = plain.path = false;
+  plain.map.opacity = 0;
   EXPECT_EQ(cv::norm(draw_overlay(frame_, saliency_, attention_, plain), frame_.colour), 0);
+}
+
+// The default overlay as its definition says it, a pixel at a time.
+cv::Mat3b slow_overlay(const cv::Mat3b& background, const cv::Mat1f& saliency, double opacity) {
+  cv::Mat1f smooth;
+  cv::GaussianBlur(saliency, smooth, {}, std::max(1.0, saliency.cols / 200.0));
+  double largest = 0;
+  cv::minMaxLoc(smooth, nullptr, &largest);
+  cv::Mat1f root;
+  cv::sqrt(smooth / largest, root);
+  cv::Mat1b level;
+  root.convertTo(level, CV_8U, 255);
+  cv::Mat3b colours, picture = background.clone();
+  cv::applyColorMap(level, colours, cv::COLORMAP_TURBO);
+  for (int r = 0; r < picture.rows; ++r)
+    for (int c = 0; c < picture.cols; ++c) {
+      const int a = cvRound(opacity * level(r, c));
+      for (int i = 0; i < 3; ++i)
+        picture(r, c)[i] =
+            static_cast<std::uint8_t>((picture(r, c)[i] * (255 - a) + colours(r, c)[i] * a + 127) / 255);
+    }
+  return picture;
+}
+
+TEST_F(OverlayTest, TheFastBlendIsTheDefinition) {
+  cv::theRNG().state = 7;
+  cv::randu(saliency_, 0, 3.7);
+  cv::randu(frame_.colour, 0, 256);
+  const OverlayStyle style{.map = {.opacity = 0.63}, .outlines = false, .marks = false, .path = false};
+  EXPECT_EQ(cv::norm(draw_overlay(frame_, saliency_, attention_, style),
+                     slow_overlay(frame_.colour, saliency_, 0.63), cv::NORM_INF),
+            0);
+}
+
+TEST(ShownStrength, RangeThresholdAndRoot) {
+  const cv::Mat1f map = (cv::Mat1f(1, 5) << 0, 1, 2, 3, 9);
+  MapStyle style;
+  EXPECT_EQ(shown_range(map, style), (ValueRange{0, 9}));
+  EXPECT_EQ(shown_strength(map, style)(4), 255);
+  EXPECT_EQ(shown_strength(map, style)(1), 85) << "255 * sqrt(1/9)";
+
+  style.range = ValueRange{1, 5};
+  const cv::Mat1b locked = shown_strength(map, style);
+  EXPECT_EQ(locked(0), 0) << "below the range";
+  EXPECT_EQ(locked(1), 0);
+  EXPECT_EQ(locked(2), 128) << "255 * sqrt(1/4)";
+  EXPECT_EQ(locked(4), 255) << "above the range";
+
+  style.threshold = 0.4;
+  EXPECT_EQ(shown_strength(map, style)(2), 0) << "at a quarter of the range";
+  EXPECT_EQ(shown_strength(map, style)(3), 180) << "at half of it";
+
+  style.range = ValueRange{2, 2};
+  EXPECT_EQ(cv::countNonZero(shown_strength(map, style)), 0) << "an empty range shows nothing";
+  EXPECT_EQ(cv::countNonZero(shown_strength(cv::Mat1f(4, 4, 0.0F), MapStyle{})), 0);
+}
+
+TEST_F(OverlayTest, PaletteBackgroundAndPathAreChoices) {
+  saliency_(100, 140) = 2;
+  attention_.fixations.push_back({20, 80, 0.5F, {}, {}});
+  const cv::Vec3b turbo = draw_overlay(frame_, saliency_, attention_)(100, 140);
+  const cv::Vec3b gray =
+      draw_overlay(frame_, saliency_, attention_, {.map = {.palette = Palette::gray}})(100, 140);
+  EXPECT_NE(turbo, gray);
+  EXPECT_GT(gray[0], 150);
+
+  const OverlayStyle depth{.background = Background::depth, .map = {.opacity = 0}, .path = false};
+  const cv::Mat3b picture = draw_overlay(frame_, saliency_, attention_, depth);
+  EXPECT_EQ(picture(100, 10), depth_picture(frame_.depth_mm)(100, 10));
+  EXPECT_EQ(picture(40, 80), picture(100, 10)) << "no path between the marks";
+  EXPECT_NE(draw_overlay(frame_, saliency_, attention_)(40, 80), cv::Vec3b(40, 50, 60)) << "the path";
+}
+
+TEST_F(OverlayTest, SizesThatDoNotFitAreRefused) {
+  cv::Mat3b picture(3, 3);
+  EXPECT_THROW(blend_map(picture, cv::Mat1b(3, 4), {}), std::invalid_argument);
 }
 
 TEST_F(OverlayTest, DepthStandsInForColour) {

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include <opencv2/core.hpp>
+
+#include "core/intrinsics.hpp"
+#include "saliency/params.hpp"
+#include "saliency/reference.hpp"
+
+namespace saccade {
+
+/// One pyramid level under a probed pixel.
+struct LevelProbe {
+  int level = 0;
+  cv::Point pixel;          ///< the pixel of this level that is nearest to the probed one
+  double depth_mm = 0;      ///< there; 0 = no reading
+  cv::Rect2d footprint_px;  ///< the window around it in pixels of level 0, not clipped; (0,0) is the centre
+                            ///< of the top-left pixel
+  double footprint_mm = 0;  ///< the window's width at depth_mm; 0 = no reading
+  double score = 0;         ///< s of Eq. (3) at `pixel`, 0..4
+  double contribution = 0;  ///< what this level adds to the master map at the probed pixel, Eq. (15)
+  std::optional<reference::PixelSymmetry> symmetry{};  ///< at `pixel`; none where there is no normal
+
+  /// The index of the plane with the best score; none if all score 0.
+  std::optional<std::size_t> winner() const;
+};
+
+/// What the operator makes of one pixel, and why.
+struct Probe {
+  int row = 0, col = 0;
+  double depth_mm = 0;                ///< 0 = no reading
+  cv::Point3d position_mm;            ///< camera frame; (0,0,0) = no reading
+  std::optional<cv::Vec3d> normal{};  ///< unit, towards the camera, of level 0
+  double saliency = 0;                ///< the sum of the levels' contributions
+  std::vector<LevelProbe> levels;     ///< first_level..last_level
+};
+
+/// Probes pixel (row, col) of a depth image (H x W, mm, 0 = no reading) with the reference form of the
+/// operator, on as much of the image as its windows need: a few milliseconds. `level_weights` are those of
+/// Eq. (15), one a level; empty = all 1, which is right for LevelNormalisation::none. The result is that of
+/// reference::symmetry3d() at this pixel. Throws as check_levels(); std::invalid_argument for a pixel
+/// outside, or a number of weights that is not that of the levels.
+Probe probe(const cv::Mat1f& depth_mm, const Intrinsics& camera, const Symmetry3dParams& params, int row,
+            int col, std::span<const double> level_weights = {});
+
+/// Says in a few words why a plane scores 0, or that it scores.
+std::string_view to_string(reference::PlaneVerdict verdict);
+
+}  // namespace saccade

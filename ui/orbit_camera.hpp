@@ -1,0 +1,61 @@
+#pragma once
+
+#include <optional>
+
+#include <opencv2/core.hpp>
+
+#include "core/intrinsics.hpp"
+
+namespace saccade {
+
+/// The eye that looks at a point cloud: it goes round a target on a sphere. The world is the sensor's camera
+/// frame: mm, x right, y down, z forward. Pointer positions and sizes are pixels of the viewport, y down.
+class OrbitCamera {
+ public:
+  static constexpr double kNearest_mm = 50, kFarthest_mm = 50'000;
+
+  OrbitCamera() = default;
+
+  /// The sensor's own view: the eye where the sensor is, its vertical field of view, the target straight
+  /// ahead at `target_mm`.
+  static OrbitCamera at_sensor(const Intrinsics& camera, cv::Size image, double target_mm);
+
+  /// Turns the scene with a drag: half a turn for the height of the viewport. The eye does not go over the
+  /// poles.
+  void orbit(cv::Point2d drag_px, cv::Size viewport);
+
+  /// Moves the scene with a drag; what is as far as the target follows the pointer.
+  void pan(cv::Point2d drag_px, cv::Size viewport);
+
+  /// Comes nearer (steps > 0) or goes away, a tenth of the distance a step; what is under the pointer and as
+  /// far as the target stays under the pointer.
+  void zoom(double steps, cv::Point2d pointer_px, cv::Size viewport);
+
+  cv::Vec3d eye_mm() const { return target_ - distance_ * forward(); }
+  cv::Vec3d target_mm() const { return target_; }
+  double distance_mm() const { return distance_; }
+
+  /// World to eye space of OpenGL: x right, y up, z towards the viewer; row by row.
+  cv::Matx44d view() const;
+
+  /// Eye space to clip space of OpenGL; row by row.
+  cv::Matx44d projection(cv::Size viewport) const;
+
+  /// How many pixels 1 mm takes at 1 mm from the eye: size on screen = this * size / distance.
+  double focal_px(cv::Size viewport) const;
+
+  /// Where a point of the world is in the viewport; none if it is behind the eye.
+  std::optional<cv::Point2d> project(const cv::Point3d& point_mm, cv::Size viewport) const;
+
+ private:
+  cv::Vec3d forward() const;
+  cv::Vec3d right() const;
+  double nearest_shown_mm() const { return distance_ / 100; }
+
+  cv::Vec3d target_{0, 0, 1000};
+  double distance_ = 1000;
+  double yaw_ = 0, pitch_ = 0;  // rad; positive: the eye is left of, above the target
+  double tan_half_fov_ = 0.46;  // vertical
+};
+
+}  // namespace saccade
