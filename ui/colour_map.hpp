@@ -40,6 +40,7 @@ cv::Mat1b to_gray(const cv::Mat1f& map);
 struct DepthStyle {
   Palette palette = Palette::gray;
   std::optional<ValueRange> range_mm{};  ///< locked; none = percentile_range() of the image, one in 100
+  bool operator==(const DepthStyle&) const = default;
 };
 
 /// A depth image as a picture for looking, BGR: near is the high end of the palette, far its low end, no

@@ -19,6 +19,7 @@ struct MapStyle {
   double threshold = 0;  ///< share of the range, 0..1; what is below is not drawn
   std::optional<ValueRange>
       range{};  ///< locked; none = automatic, 0 to the largest value of the smoothed map
+  bool operator==(const MapStyle&) const = default;
 };
 
 /// What the map lies on.

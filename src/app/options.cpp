@@ -20,8 +20,8 @@ SettingsOptions::SettingsOptions(CLI::App& command, const std::set<std::string_v
   }
 }
 
-Settings SettingsOptions::resolve() const {
-  Settings settings;
+Settings SettingsOptions::resolve(const Settings& base) const {
+  Settings settings = base;
   if (!config_.empty()) load_settings(settings, config_);
   for (const auto& [key, value] : given_) apply_setting(settings, key, value);
   return settings;
