@@ -140,23 +140,21 @@ OniStatus ModuleStream::convertDepthToColorCoordinates(StreamBase* colour, int d
 }
 
 OniStatus ModuleStream::start() {
-  {
-    const std::scoped_lock lock(delivery_mutex_, settings_mutex_);
-    if (started_) return ONI_STATUS_OK;
-    started_ = true;
-  }
+  if (exchange_started(true)) return ONI_STATUS_OK;
   if (running_(true)) return ONI_STATUS_OK;
-  const std::scoped_lock lock(delivery_mutex_, settings_mutex_);
-  started_ = false;
+  exchange_started(false);
   return ONI_STATUS_ERROR;
 }
 
 void ModuleStream::stop() {
-  {
-    const std::scoped_lock lock(delivery_mutex_, settings_mutex_);
-    if (!std::exchange(started_, false)) return;
-  }
+  if (!exchange_started(false)) return;
+  { const std::lock_guard until_delivered(delivery_mutex_); }
   running_(false);
+}
+
+bool ModuleStream::exchange_started(bool started) {
+  const std::lock_guard lock(settings_mutex_);
+  return std::exchange(started_, started);
 }
 
 void ModuleStream::deliver(const cv::Mat& image, int index, std::uint64_t timestamp_us, int missing_bytes) {

@@ -73,6 +73,7 @@ class ModuleStream : public oni::driver::StreamBase {
   void tell_changed(int id, const void* data, int size);
   OniStatus set_mode(const OniVideoMode& mode);
   OniStatus set_cropping(const OniCropping& cropping);
+  bool exchange_started(bool started);
   int stride() const;
   void fill(OniFrame& out, const cv::Mat& image, const StreamSettings& settings) const;
 
@@ -82,7 +83,7 @@ class ModuleStream : public oni::driver::StreamBase {
   mutable std::mutex settings_mutex_;
   StreamSettings settings_;    // guarded by settings_mutex_
   std::mutex delivery_mutex_;  // held while a frame is handed on
-  bool started_ = false;       // guarded by settings_mutex_; changed with both held
+  bool started_ = false;       // guarded by settings_mutex_
 };
 
 /// Bytes of a pixel; 0 for formats that no module offers.

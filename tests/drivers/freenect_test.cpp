@@ -1,7 +1,9 @@
 // Kinect v1 without one: sessions written here are played by fakenect, which stands in for libfreenect, and
 // come through our driver module and OpenNI2. In a subprocess, since fakenect must be found before the real
 // library.
+#include <algorithm>
 #include <cstdlib>
+#include <cstring>
 #include <fstream>
 #include <map>
 
@@ -64,6 +66,33 @@ std::vector<std::uint8_t> bytes_of(const std::vector<T>& values) {
   std::vector<std::uint8_t> bytes(values.size() * sizeof(T));
   std::memcpy(bytes.data(), values.data(), bytes.size());
   return bytes;
+}
+
+// A stand-in of our own (fake_freenect.cpp) has what fakenect lacks.
+TEST_F(FreenectTest, RegisteredDepthAndInfraredComeThrough) {
+  play(FAKE_FREENECT_FOLDER, "", "20 di");
+  std::size_t depths = 0, infrareds = 0;
+  std::uint64_t first_us = 0;
+  for (const PlayedFrame& frame : frames()) {
+    const bool depth = frame.sensor == 'd';
+    EXPECT_EQ(frame.size, depth ? cv::Size(640, 480) : cv::Size(640, 488));
+    std::vector<std::uint16_t> pixels(frame.bytes.size() / 2);
+    std::memcpy(pixels.data(), frame.bytes.data(), frame.bytes.size());
+    ASSERT_EQ(pixels.size(), static_cast<std::size_t>(frame.size.area()));
+    const int number = pixels.front() - (depth ? 1000 : 300);
+    if (first_us == 0) first_us = frame.timestamp_us - static_cast<std::uint64_t>(number) * 2'000'000 / 60;
+    EXPECT_NEAR(static_cast<double>(frame.timestamp_us - first_us), number * 2e6 / 60, 2);
+    EXPECT_EQ(std::count(pixels.begin(), pixels.end(), pixels.front()), frame.size.area());
+    ++(depth ? depths : infrareds);
+  }
+  EXPECT_GE(depths, 1U);
+  EXPECT_GE(infrareds, 1U);
+}
+
+TEST_F(FreenectTest, AKinectThatIsPulledOutIsLostAndFoundAgain) {
+  const std::string said = play(FAKE_FREENECT_FOLDER, "FAKE_KINECT_FRAMES=5", "1000 d 1");
+  EXPECT_THAT(said, HasSubstr("disconnected 1"));
+  EXPECT_FALSE(frames().empty());
 }
 
 #ifdef FAKENECT_FOLDER
