@@ -155,6 +155,10 @@ HWY_INLINE void sweep_normals(const Points& points, const ColumnPart& part, cons
 ///   gamma.ray * (z_j - z)/z_j + gamma.x/fx * dc + gamma.y/fy * dr > 0,
 /// in which nothing cancels. 1/z_j is NaN where there is no point, so that the comparison fails.
 ///
+/// Differs from Eq. (2): a point exactly on the plane, d = 0, comes to the half behind, which is what is left
+/// of the window. With axes from measured normals that is chance; where it is not, on a frontal plane, all
+/// scores are 0.
+///
 /// Columns are the outer loop: the sum of z of a column, times dc, gives the sum for x. Count and z share one
 /// float, which is unpacked after every few rows.
 HWY_INLINE void sum_in_front(const LevelPlanes& level, std::ptrdiff_t at, const Window& window,
