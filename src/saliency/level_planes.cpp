@@ -18,7 +18,7 @@ DepthPacking DepthPacking::for_depths(float largest_mm, bool multiples_of_eighth
   if (!multiples_of_eighths)
     for (float units = 256; units > 8; units /= 2)
       if (fits(4, units, kBits21)) return {units, kBits21, 4};
-  if (fits(15, 8, kBits20)) return {8, kBits20, 15};
+  if (fits(kMostRows, 8, kBits20)) return {8, kBits20, kMostRows};
   if (fits(7, 8, kBits21)) return {8, kBits21, 7};
   return {8, kBits21, 4};  // 65535 mm still fit
 }

@@ -14,6 +14,8 @@ namespace saccade {
 /// summed in whole units. Both parts of a sum of `rows` pixels stay exact: count_unit exceeds the largest sum
 /// of depths, and the whole stays below 2^24.
 struct DepthPacking {
+  static constexpr int kMostRows = 15;
+
   float units_per_mm = 8;
   float count_unit = 0;  ///< what one pixel adds besides its depth
   int rows = 0;          ///< so many pixels may be summed before they are unpacked

@@ -75,7 +75,7 @@ struct RowStatistics {
 
 /// Memory of one worker; sized for the widest row and the largest window, and kept between frames.
 struct RowScratch {
-  static constexpr int kBandRows = 8;  ///< so many rows at most are given to Kernels::symmetry_rows at once
+  static constexpr int kBandRows = 16;  ///< so many rows at most are given to Kernels::symmetry_rows at once
 
   RowScratch(int width, int reach)
       : columns(width),

@@ -98,6 +98,9 @@ HWY_INLINE V in_register(V v) {
 #endif
   return v;
 }
+#if HWY_TARGET <= HWY_AVX3
+HWY_INLINE M in_register(M m) { return m; }
+#endif
 
 /// Which lanes' values enter a sum: a mask where sums can be masked, else 1 or 0 to be multiplied with.
 #if HWY_TARGET <= HWY_AVX3

@@ -42,18 +42,15 @@ HWY_INLINE V symmetry_at(const LevelPlanes& level, const Symmetry3dParams& param
                      get(S::kZRows),
                      get(S::kZCols),
                      {get(S::kNormalX), get(S::kNormalY), get(S::kNormalZ)}};
-  V best = zero();
-  for (int first = 0; first < 3; first += kPlanesPerPass) {
-    Vec3 gamma[kPlanesPerPass];
-    for (int i = 0; i < kPlanesPerPass; ++i) {
-      const int axis = S::kAxis0 + 3 * (first + i);
-      gamma[i] = {get(axis), get(axis + 1), get(axis + 2)};
-    }
-    HalfSums front[kPlanesPerPass];
-    sum_in_front<kPlanesPerPass>(level, level.at(row, col), window, centres, gamma, terms, front);
-    for (int i = 0; i < kPlanesPerPass; ++i)
-      best = hn::Max(best, plane_score(centres, gamma[i], front[i], all));
+  Vec3 gamma[kPlanes];
+  for (int i = 0; i < kPlanes; ++i) {
+    const int axis = S::kAxis0 + 3 * i;
+    gamma[i] = {get(axis), get(axis + 1), get(axis + 2)};
   }
+  HalfSums front[kPlanes];
+  sum_in_front(level, level.at(row, col), window, centres, gamma, terms, front);
+  V best = zero();
+  for (int i = 0; i < kPlanes; ++i) best = hn::Max(best, plane_score(centres, gamma[i], front[i], all));
   const V usable = load(level.row(LevelPlanes::kPacked, row) + col);
   return hn::IfThenElseZero(hn::Gt(usable, zero()), best);
 }

@@ -117,6 +117,35 @@ TEST(Agreement, NearestAndFarthestReadingsSideBySide) {
 
 TEST(Agreement, EverythingAtOneMillimetre) { compare(cv::Mat1f(24, 37, 1.0f), params_of(15, 0, 0)); }
 
+// What excuses near-ties must not excuse mistakes.
+TEST(Agreement, AnErrorIsNoNearTie) {
+  for (const int kernel : {5, 15}) {
+    const Symmetry3dParams params = params_of(kernel, 0, 0);
+    const cv::Mat1f depth = ball_scene({110, 85}, 16);
+    const reference::Level level = reference::make_level(to_double(depth), camera_for(depth.size()));
+    int missed = 0, all = 0;
+    for (int r = 0; r < depth.rows; r += 3)
+      for (int c = 0; c < depth.cols; c += 5) {
+        const auto pixel = reference::symmetry_at(level, r, c, params);
+        if (!pixel) continue;
+        EXPECT_EQ(judge(level, r, c, params, pixel->score(), 1e-5), Answer::right);
+        ++all;
+        missed += judge(level, r, c, params, pixel->score() + 0.003, 1e-4) != Answer::wrong;
+      }
+    EXPECT_GT(all, 300);
+    EXPECT_LE(missed, all / 50) << "of " << all << ", k = " << kernel;
+  }
+}
+
+// A point exactly on a plane is in neither half by the text, and in the one behind here. That it makes no
+// difference is seen where whole rows and columns lie on the planes.
+TEST(Agreement, PointsExactlyOnThePlanes) {
+  cv::Mat1f depth(40, 51, 1000.0f);
+  compare(depth, params_of(9, 0, 0));
+  degrade(depth, 17, 1000, 0.1);  // the same plane with holes
+  compare(depth, params_of(9, 0, 0));
+}
+
 // What follows uses real images, cut to a size that the reference can do.
 class RealImage : public testing::TestWithParam<const char*> {};
 

@@ -28,8 +28,17 @@ struct Comparison {
   void check_level(std::size_t i, const cv::Mat1f& actual, double noticed) const;
 };
 
-/// Whether the operator's answer at a pixel hangs on the last bits: two eigenvalues are nearly the same, a
-/// point lies nearly on a candidate plane, or the convexity gate of a plane is about to open or shut.
-bool is_near_tie(const reference::Level& level, int row, int col, const Symmetry3dParams& params);
+/// What a value of the production form is, beside the reference's.
+enum class Answer {
+  right,
+  near_tie,   ///< right if some points that lie nearly on a plane, or a gate nearly shut, are decided
+              ///< otherwise
+  undefined,  ///< two eigenvalues are so alike that the axes, and many points' sides, are anyone's choice
+  wrong
+};
+
+/// Judges `actual` at a pixel by trying every way to decide what hangs on the last bits.
+Answer judge(const reference::Level& level, int row, int col, const Symmetry3dParams& params, double actual,
+             double tolerance);
 
 }  // namespace saccade::test
