@@ -117,13 +117,14 @@ OpenNi2Device::OpenNi2Device(const DeviceIdentity& identity, const SensorSetting
   if (streams_->device.hasSensor(openni::SENSOR_COLOR))
     streams_->colour.create(streams_->device, openni::SENSOR_COLOR);
   choose_modes(settings.mode);
-  if (streams_->depth.start() != openni::STATUS_OK)
-    throw failed(fmt::format("the depth stream does not start: {}", openni::OpenNI::getExtendedError()),
-                 identity_.uri, kHint);
+  // Colour first, so that the first depth frame finds its own.
   if (has_colour() && streams_->colour.start() != openni::STATUS_OK) {
     notes_.emplace_back("the colour stream does not start; there is depth only");
     streams_->colour.destroy();
   }
+  if (streams_->depth.start() != openni::STATUS_OK)
+    throw failed(fmt::format("the depth stream does not start: {}", openni::OpenNI::getExtendedError()),
+                 identity_.uri, kHint);
   opening_notes_ = notes_.size();
   apply(wanted);
 }

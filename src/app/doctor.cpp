@@ -37,7 +37,7 @@ void check_openni2(const Examination& found, std::vector<Problem>& problems) {
     if (found.openni2.module(name) == nullptr)
       problems.push_back(
           {fmt::format("our driver module {} is not in {}", name, found.openni2.driver_folder.string()),
-           "build or install Saccade anew: ./setup && cmake --build --preset release"});
+           "./run --help, which first builds what is missing"});
   for (const char* name : {"PS1080", "PSLink"})
     if (found.openni2.module(name) == nullptr)
       problems.push_back({fmt::format("the driver module {} of OpenNI2 is not in {}", name,

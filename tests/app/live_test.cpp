@@ -65,7 +65,7 @@ TEST_F(LiveTest, SlowProcessingDropsFramesInsteadOfFallingBehind) {
   plug_in("&rate=120");
   const Outcome outcome =
       run_saccade({"run", "openni2", "--frames", "15", "--out", in("out"), "--dump", "none", "--simd",
-                   "scalar", "--workers", "1", "--kernel", "41", "--json"});
+                   "scalar", "--workers", "1", "--kernel", "25", "--json"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   const json summary = json::parse(outcome.out);
   EXPECT_GT(summary["dropped_by"]["newer_frame"], 0) << "the device is faster";

@@ -90,8 +90,9 @@ TEST_F(Sensor, TakesTheModeThatIsAskedForOrNone) {
   settings.mode = SensorMode{80, 60, 60};
   const auto source = open_source("openni2:saccade-virtual://0", settings);
   EXPECT_EQ(source->info().rate_hz, 60);
-  const Frame frame = next(*source);
+  Frame frame = next(*source);
   EXPECT_EQ(frame.size(), cv::Size(80, 60));
+  while (frame.colour.empty()) frame = next(*source);  // a machine that is busy may miss one
   EXPECT_EQ(frame.colour.size(), cv::Size(80, 60));
   settings.mode = SensorMode{81, 60, 60};
   try {
