@@ -104,14 +104,13 @@ struct Session {
   std::map<std::uint64_t, std::vector<std::uint8_t>> colour;
 };
 
-// Writes a fakenect session of `count` frames, whose clock starts anew on the way, and which plays in a
-// moment.
+// Writes a fakenect session of `count` frames, whose clock starts anew on the way.
 Session write_session(const fs::path& folder, int count) {
   Session session;
   std::string index;
   std::uint64_t ticks = (std::uint64_t{1} << 32) + 4'294'000'000U;
   for (int k = 0; k < count; ++k, ticks += 2'000'000) {
-    const double time_s = 1000 + 0.02 * k;
+    const double time_s = 1000 + 0.1 * k;
     std::vector<std::uint16_t> raw(kPixels);
     for (int i = 0; i < kPixels; ++i) {
       const int row = i / 640, column = i % 640;
