@@ -20,8 +20,8 @@ namespace saccade {
 /// What to open and which of its frames to play.
 struct OpenRequest {
   std::string uri;
-  PlayRange range;
-  std::optional<Intrinsics> intrinsics;
+  PlayRange range{};
+  std::optional<Intrinsics> intrinsics{};
 };
 
 /// How a session is doing.
