@@ -5,6 +5,7 @@
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <opencv2/imgproc.hpp>
@@ -17,20 +18,10 @@ const cv::Scalar kMark(255, 255, 255), kFirstMark(80, 255, 80), kShadow(0, 0, 0)
 // Marks and lines grow with the picture: 1 at 640 pixels wide.
 double mark_size(const cv::Mat3b& picture) { return std::clamp(picture.cols / 640.0, 0.5, 4.0); }
 
-// The outer contour of each proto-object; pixels without depth inside it are not drawn as holes.
 void draw_outlines(cv::Mat3b& picture, const Attention& attention) {
-  if (attention.masks.empty()) return;
-  const double size = mark_size(picture);
-  const cv::Mat brush = cv::getStructuringElement(cv::MORPH_ELLIPSE, {5, 5});
-  for (std::size_t rank = attention.fixations.size(); rank > 0; --rank) {
-    cv::Mat1b mask;
-    cv::compare(attention.masks, static_cast<double>(rank), mask, cv::CMP_EQ);
-    cv::morphologyEx(mask, mask, cv::MORPH_CLOSE, brush);
-    std::vector<std::vector<cv::Point>> contours;
-    cv::findContours(mask, contours, cv::RETR_EXTERNAL, cv::CHAIN_APPROX_SIMPLE);
-    cv::drawContours(picture, contours, -1, rank == 1 ? kFirstMark : kMark, std::max(1, cvRound(size)),
-                     cv::LINE_AA);
-  }
+  const int line = std::max(1, cvRound(mark_size(picture)));
+  for (const Outline& outline : proto_outlines(attention))
+    cv::polylines(picture, outline.points, true, outline.rank == 1 ? kFirstMark : kMark, line, cv::LINE_AA);
 }
 
 void draw_label(cv::Mat3b& picture, const std::string& text, cv::Point centre, double size,
@@ -63,6 +54,21 @@ void draw_marks(cv::Mat3b& picture, const std::vector<Fixation>& fixations) {
 }
 
 }  // namespace
+
+std::vector<Outline> proto_outlines(const Attention& attention) {
+  std::vector<Outline> outlines;
+  if (attention.masks.empty()) return outlines;
+  const cv::Mat brush = cv::getStructuringElement(cv::MORPH_ELLIPSE, {5, 5});
+  for (std::size_t rank = attention.fixations.size(); rank > 0; --rank) {
+    cv::Mat1b mask;
+    cv::compare(attention.masks, static_cast<double>(rank), mask, cv::CMP_EQ);
+    cv::morphologyEx(mask, mask, cv::MORPH_CLOSE, brush);
+    std::vector<std::vector<cv::Point>> contours;
+    cv::findContours(mask, contours, cv::RETR_EXTERNAL, cv::CHAIN_APPROX_SIMPLE);
+    for (auto& points : contours) outlines.push_back({rank, std::move(points)});
+  }
+  return outlines;
+}
 
 cv::Mat1f smooth_for_looking(const cv::Mat1f& saliency) {
   constexpr double kSigmaOfWidth = 1.0 / 200;

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
+#include <vector>
 
 #include <opencv2/core.hpp>
 
@@ -35,6 +37,16 @@ struct OverlayStyle {
   bool path = true;      ///< lines from fixation to fixation
   bool operator==(const OverlayStyle&) const = default;
 };
+
+/// The outer contour of a proto-object, or of a part of one, in pixels.
+struct Outline {
+  std::size_t rank = 0;  ///< of its fixation, from 1
+  std::vector<cv::Point> points;
+};
+
+/// The outlines of all proto-objects, the last fixation's first; pixels without depth inside an object are no
+/// holes.
+std::vector<Outline> proto_outlines(const Attention& attention);
 
 /// The map as it is looked at: the lines of symmetry are a pixel or two wide, so it is smoothed by a Gaussian
 /// of 1/200 of its width. The slow part of an overlay, and the same for every style.

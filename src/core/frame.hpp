@@ -31,4 +31,8 @@ struct Frame {
   cv::Size size() const { return depth_mm.size(); }
 };
 
+/// Makes `copy` the same frame with pixels of its own, in the memory that it has where that fits. The pixels
+/// that `copy` had must not be shared.
+void copy_frame(const Frame& frame, Frame& copy);
+
 }  // namespace saccade

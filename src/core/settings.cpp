@@ -46,26 +46,32 @@ SettingSpec number(std::string_view key, std::string_view value, std::string_vie
 
 SettingSpec word(std::string_view key, std::string_view help, std::string Settings::*field,
                  std::vector<std::string> words) {
-  return {key, "NAME", help,
+  return {key,
+          "NAME",
+          help,
           [=](Settings& s, const std::string& text) {
             if (std::find(words.begin(), words.end(), text) == words.end())
               throw std::invalid_argument(fmt::format("one of {}", fmt::join(words, ", ")));
             s.*field = text;
           },
-          [=](const Settings& s) { return s.*field; }};
+          [=](const Settings& s) { return s.*field; },
+          words};
 }
 
 template <typename Enum>
 SettingSpec choice(std::string_view key, std::string_view help, Enum Settings::*field,
                    std::vector<std::string> words) {
-  return {key, "NAME", help,
+  return {key,
+          "NAME",
+          help,
           [=](Settings& s, const std::string& text) {
             const auto found = std::find(words.begin(), words.end(), text);
             if (found == words.end())
               throw std::invalid_argument(fmt::format("one of {}", fmt::join(words, ", ")));
             s.*field = static_cast<Enum>(found - words.begin());
           },
-          [=](const Settings& s) { return words[static_cast<std::size_t>(s.*field)]; }};
+          [=](const Settings& s) { return words[static_cast<std::size_t>(s.*field)]; },
+          words};
 }
 
 bool parse_truth(const std::string& text) {

@@ -80,6 +80,7 @@ struct SettingSpec {
   /// Throws std::invalid_argument whose text says what is expected, e.g. "3..127".
   std::function<void(Settings&, const std::string&)> parse;
   std::function<std::string(const Settings&)> print;  ///< parse(print(s)) gives s again
+  std::vector<std::string> words{};                   ///< all that it can be; empty = no such list
 
   bool is_switch() const { return value.empty(); }
 };
@@ -97,5 +98,8 @@ void apply_setting(Settings& settings, const std::string& key, const std::string
 /// Reads a TOML file of settings over `settings`. Throws Error (usage) for a syntax error, an unknown key or
 /// a bad value, naming file and line; Error (unreadable) for a file that cannot be read.
 void load_settings(Settings& settings, const std::string& path);
+
+/// The settings that are not the default as a TOML file that load_settings() reads.
+std::string settings_toml(const Settings& settings);
 
 }  // namespace saccade

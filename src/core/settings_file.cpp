@@ -1,3 +1,4 @@
+#include <charconv>
 #include <vector>
 
 #include <fmt/format.h>
@@ -43,6 +44,20 @@ void load_settings(Settings& settings, const std::string& path) {
       throw usage_error(error.what(), fmt::format("{}:{}", path, node.source().begin.line), hint);
     }
   }
+}
+
+std::string settings_toml(const Settings& settings) {
+  const Settings defaults;
+  std::string text = "# Settings of Saccade that are not the default. Use them with --config FILE.\n";
+  for (const SettingSpec& spec : setting_specs()) {
+    const std::string value = spec.print(settings);
+    if (value == spec.print(defaults) && !(spec.key == "levels" && settings.levels_chosen)) continue;
+    double number = 0;
+    const auto [end, code] = std::from_chars(value.data(), value.data() + value.size(), number);
+    const bool bare = spec.is_switch() || (code == std::errc{} && end == value.data() + value.size());
+    text += fmt::format("{} = {}\n", spec.key, bare ? value : fmt::format("\"{}\"", value));
+  }
+  return text;
 }
 
 }  // namespace saccade

@@ -1,0 +1,184 @@
+#include "ui/session.hpp"
+
+#include <exception>
+#include <utility>
+
+#include "pipeline/played_source.hpp"
+
+namespace saccade {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr int kSlots = 4;  // one captured, one waiting, one computed, one looked at
+
+}  // namespace
+
+Session::Session(Open open, std::function<void()> wake, Wishes wishes)
+    : open_(std::move(open)), wake_(std::move(wake)), wishes_(std::move(wishes)) {
+  thread_ = std::jthread([this](const std::stop_token& token) { work(token); });
+}
+
+Session::~Session() {
+  {
+    const std::lock_guard lock(mutex_);
+    stopping_ = true;
+    if (pipeline_ != nullptr) pipeline_->stop();
+  }
+  thread_.request_stop();
+}
+
+void Session::open(OpenRequest request) {
+  {
+    const std::lock_guard lock(mutex_);
+    state_ = {};
+    state_.phase = SessionState::Phase::opening;
+    state_.uri = request.uri;
+    request_ = std::move(request);
+    latest_.reset();
+    records_.clear();
+    if (pipeline_ != nullptr) pipeline_->stop();
+  }
+  asked_.notify_all();
+}
+
+std::int64_t Session::set_wishes(const Wishes& wishes) {
+  std::int64_t generation = 0;
+  {
+    const std::lock_guard lock(mutex_);
+    wishes_ = wishes;
+    generation = ++generation_;
+    if (processor_ != nullptr) processor_->set_wishes(wishes, generation);
+  }
+  playback_->show_again();
+  return generation;
+}
+
+SessionState Session::state() const {
+  const std::lock_guard lock(mutex_);
+  SessionState state = state_;
+  if (pipeline_ != nullptr && !request_) {
+    state.ledger = pipeline_->ledger();
+    state.connection = pipeline_->source_state();
+  }
+  return state;
+}
+
+ViewResultPtr Session::latest() const {
+  const std::lock_guard lock(mutex_);
+  return latest_;
+}
+
+std::vector<FrameRecord> Session::take_records() {
+  const std::lock_guard lock(mutex_);
+  return std::exchange(records_, {});
+}
+
+// The session's thread: one source after the other.
+void Session::work(const std::stop_token& token) {
+  for (;;) {
+    OpenRequest request;
+    {
+      std::unique_lock lock(mutex_);
+      if (!asked_.wait(lock, token, [this] { return request_.has_value(); })) return;
+      if (stopping_) return;
+      request = *std::exchange(request_, std::nullopt);
+    }
+    std::string error;
+    try {
+      run(request);
+    } catch (const std::exception& failure) {
+      error = failure.what();
+    }
+    change([&](SessionState& state) {
+      state.phase = SessionState::Phase::ended;
+      state.error = error;
+    });
+  }
+}
+
+void Session::run(const OpenRequest& request) {
+  std::unique_ptr<FrameSource> source = open_(request.uri);
+  const SourceInfo info = source->info();
+  PipelineOptions options;
+  options.policy = FramePolicy::newest;
+  options.slots = kSlots;
+  options.intrinsics = request.intrinsics;
+  if (info.live) options.selection = {request.range.start, request.range.every, request.range.limit};
+  options.on_rejected = [this](std::int64_t index, const std::string& reason) {
+    change([&](SessionState& state) {
+      state.rejected_index = index;
+      state.rejected_reason = reason;
+    });
+  };
+
+  std::unique_lock lock(mutex_);
+  if (request_ || stopping_) return;  // this is not wanted any more
+  auto processor = std::make_unique<TunableProcessor>(
+      wishes_, generation_,
+      TunableProcessor::Hooks{[this] { playback_->taken(); },
+                              [this](std::shared_ptr<ViewResult> result) { publish(std::move(result)); }});
+  TunableProcessor* const tunable = processor.get();
+  state_.source = info;
+  state_.phase = SessionState::Phase::open;
+  Pipeline pipeline(std::make_unique<PlayedSource>(std::move(source), playback_, request.range),
+                    std::move(processor), std::move(options));
+  pipeline_ = &pipeline;
+  processor_ = tunable;
+  lock.unlock();
+  wake_();
+
+  std::exception_ptr error;
+  try {
+    consume(pipeline);
+  } catch (...) {
+    error = std::current_exception();
+  }
+  lock.lock();
+  if (!request_) state_.ledger = pipeline.ledger();
+  pipeline_ = nullptr;
+  processor_ = nullptr;
+  lock.unlock();
+  if (error) std::rethrow_exception(error);
+}
+
+// Results are published by the processor; here their slots go back, and errors come out.
+void Session::consume(Pipeline& pipeline) {
+  while (const ResultHandle result = pipeline.next()) {
+    const std::lock_guard lock(mutex_);
+    if (!request_) state_.latency = pipeline.latency();
+  }
+}
+
+void Session::publish(std::shared_ptr<ViewResult> result) {
+  FrameRecord record;
+  record.index = result->frame().index;
+  record.generation = result->generation;
+  if (const auto& fixations = result->a.result.attention.fixations; !fixations.empty())
+    record.strength = fixations.front().saliency;
+  record.times = result->a.result.times;
+  record.at = Clock::now();
+  record.latency_ms =
+      std::chrono::duration<double, std::milli>(record.at - result->a.result.captured_at).count();
+  {
+    const std::lock_guard lock(mutex_);
+    if (request_ || stopping_) return;
+    result->serial = ++serial_;
+    latest_ = std::move(result);
+    if (records_.size() == kMostRecords)
+      records_.erase(records_.begin(), records_.begin() + kMostRecords / 2);
+    records_.push_back(record);
+  }
+  wake_();
+}
+
+void Session::change(const std::function<void(SessionState&)>& how) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (request_) return;  // it is about a source that nobody wants any more
+    how(state_);
+  }
+  wake_();
+}
+
+}  // namespace saccade
