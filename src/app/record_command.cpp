@@ -128,11 +128,12 @@ class RecordRun {
     const OniWriterCounts counts = recorder.counts();
     std::error_code code;
     const auto space = fs::space(fs::path(arguments_.file).parent_path() / ".", code);
-    fmt::print(stderr, "\r\033[K{} frames, {:.1f}/s, {}{}, {} dropped", counts.frames,
+    fmt::print(stderr, "\r\033[K{} frames, {:.1f}/s, {}{}, {} dropped{}", counts.frames,
                static_cast<double>(counts.frames) / std::max(seconds(), 1e-3),
                megabytes(static_cast<double>(recorder.size_bytes())),
                code ? "" : fmt::format(" ({} free)", megabytes(static_cast<double>(space.available))),
-               counts.dropped);
+               counts.dropped,
+               counts.unsynced > 1 ? fmt::format(", slow disk: {} not on it yet", counts.unsynced) : "");
     std::fflush(stderr);
   }
 
@@ -155,13 +156,18 @@ class RecordRun {
                                            {"dropped", counts_.dropped},
                                            {"rejected", rejected_},
                                            {"rounded", counts_.rounded},
+                                           {"most_unsynced", counts_.most_unsynced},
                                            {"bytes", writer.size_bytes()},
                                            {"wall_s", wall_s}};
       fmt::print("{}\n", json.dump());
     } else if (!arguments_.quiet) {
-      fmt::print("{} frame{} in {:.2f} s, {}, {} dropped{}{}; see {}\n", counts_.frames,
+      fmt::print("{} frame{} in {:.2f} s, {}, {} dropped{}{}{}; see {}\n", counts_.frames,
                  counts_.frames == 1 ? "" : "s", wall_s, megabytes(static_cast<double>(writer.size_bytes())),
                  counts_.dropped, rejected_ > 0 ? fmt::format(", {} rejected", rejected_) : "",
+                 counts_.most_unsynced > 1
+                     ? fmt::format(", slow disk: up to {} frames at a time were not on it yet",
+                                   counts_.most_unsynced)
+                     : "",
                  interrupted_ ? ", interrupted" : "", arguments_.file);
     }
     std::fflush(stdout);

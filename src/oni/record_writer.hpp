@@ -36,8 +36,8 @@ class OniRecordWriter {
                     std::span<const std::uint8_t> value);
   void add_int(std::uint32_t node, std::string_view name, std::uint64_t value);
 
-  /// Writes everything up to the first frame and waits until it is on the disk. Throws Error (failed), also
-  /// where the disk has no room.
+  /// Writes everything up to the first frame and waits until it is on the disk, and the file in its folder.
+  /// Throws Error (failed), also where the disk has no room.
   void begin();
 
   /// Appends a frame; its number is its place in the node, from 1. False, with the file unchanged, if the
