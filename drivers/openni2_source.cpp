@@ -213,6 +213,7 @@ void OpenNi2Source::took_device() {
   last_failure_.clear();
   back_off_ = kFirstBackOff;
   period_us_ = 1'000'000 / std::max(1, device_->rate_hz());
+  last_depth_us_.reset();
   opened_at_ = Clock::now();
   frames_since_opening_ = false;
   clock_offset_us_.reset();
@@ -261,6 +262,9 @@ std::optional<ReadResult> OpenNi2Source::take_depth(Frame& frame) {
   if (pending_us_) result = deliver(frame);
   cv::swap(depth_, pending_);
   pending_us_ = time_us;
+  if (last_depth_us_ && time_us > *last_depth_us_)
+    period_us_ = std::min(period_us_, time_us - *last_depth_us_);
+  last_depth_us_ = time_us;
   return result;
 }
 
@@ -275,6 +279,7 @@ void OpenNi2Source::take_colour() {
 
 const OpenNi2Source::TimedColour* OpenNi2Source::colour_of_pending() const {
   const TimedColour* best = nullptr;
+  // Within half a period it is of no other depth frame, and none that comes later is nearer.
   std::int64_t least_us = period_us_ / 2;
   for (const TimedColour& colour : colours_) {
     if (!colour.time_us) continue;

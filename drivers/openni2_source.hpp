@@ -18,8 +18,8 @@ namespace saccade {
 /// A live sensor, through OpenNI2. `openni2` is the first one that is connected, `openni2:URI` a certain one.
 ///
 /// Each depth frame is a frame; one whose memory is too short for its size is `rejected`. Its colour is the
-/// colour frame whose device time is at most half a period of the depth away; a depth frame waits for it
-/// until a later colour frame or the next depth frame comes, and then goes without.
+/// colour frame whose device time is at most half a period away (16.7 ms at 30 Hz); a depth frame waits for
+/// it until a later colour frame or the next depth frame comes, and then goes without.
 ///
 /// A device is lost when OpenNI2 says so, when it reports an error, or when it is silent for 2 s (5 s after
 /// it was opened). The source then closes it and tries to open it again, at growing intervals of 0.1 s to 2 s
@@ -92,7 +92,8 @@ class OpenNi2Source final : public FrameSource, private SensorControls {
   std::optional<std::int64_t> clock_offset_us_;  // frame time - device time; empty after opening
   std::optional<Clock::time_point> first_frame_at_;
   std::int64_t next_time_us_ = 0;  // at least
-  std::int64_t period_us_ = 0;
+  std::int64_t period_us_ = 0;     // of depth: the mode's, or the shortest that was seen
+  std::optional<std::int64_t> last_depth_us_;
   cv::Mat1f depth_, pending_;  // being read; waiting for its colour
   std::optional<std::int64_t> pending_us_;
   std::array<TimedColour, 2> colours_;
