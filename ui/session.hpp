@@ -78,6 +78,11 @@ class Session {
 
   SessionState state() const;
 
+  /// The controls of the sensor that is open: see SensorControls. All empty, and without effect, where there
+  /// is none.
+  SensorValues sensor_values() const;
+  void request_sensor(const SensorValues& wanted);
+
   /// The newest result of the source that is open; null = none yet.
   ViewResultPtr latest() const;
 
@@ -103,6 +108,7 @@ class Session {
   std::int64_t generation_ = 0, serial_ = 0;
   Pipeline* pipeline_ = nullptr;
   TunableProcessor* processor_ = nullptr;
+  SensorControls* controls_ = nullptr;  // of the open source; null = it has none
   bool stopping_ = false;
   SessionState state_;
   ViewResultPtr latest_;
