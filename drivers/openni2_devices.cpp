@@ -11,7 +11,7 @@ namespace {
 // OpenNI2 does not tell which module a device comes from; the form of its URI does.
 std::string driver_of(const DeviceIdentity& device) {
   if (device.uri.starts_with("saccade-virtual:")) return "SaccadeVirtual";
-  if (device.uri.starts_with("freenect:")) return "Freenect";
+  if (device.uri.starts_with("freenect:")) return "SaccadeFreenect";
   constexpr int kPrimeSense = 0x1d27;
   if (device.usb_vendor != kPrimeSense) return "";
   return device.usb_product == 0x0600 || device.usb_product == 0x0601 ? "PS1080" : "PSLink";

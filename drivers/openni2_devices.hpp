@@ -12,7 +12,7 @@ namespace saccade {
 struct DeviceListing {
   DeviceIdentity identity;
   std::string source;  ///< what SOURCE names it: "openni2:URI"
-  std::string driver;  ///< "PS1080", "Freenect", ... as its URI and vendor tell; empty = not known
+  std::string driver;  ///< "PS1080", "SaccadeFreenect", ... as its URI and vendor tell; empty = not known
   /// What is known only of a device that can be opened, or that the caller has not asked for.
   std::string serial;                    ///< empty = not known
   std::vector<SensorMode> depth_modes;   ///< in a format that Saccade reads

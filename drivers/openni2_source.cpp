@@ -231,7 +231,7 @@ std::optional<ReadResult> OpenNi2Source::poll_device(Frame& frame, Clock::time_p
   if (const std::string why = reason_of_loss(); !why.empty()) {
     if (pending_us_) return deliver(frame);
     lose(why);
-    return std::nullopt;
+    return ReadResult{ReadStatus::timeout, ""};  // at once, so that a short loss is seen, too
   }
   const milliseconds slice = std::clamp(time_left(deadline), milliseconds(0), kPoll);
   switch (device_->wait(slice)) {

@@ -23,7 +23,8 @@ namespace saccade {
 ///
 /// A device is lost when OpenNI2 says so, when it reports an error, or when it is silent for 2 s (5 s after
 /// it was opened). The source then closes it and tries to open it again, at growing intervals of 0.1 s to 2 s
-/// and at once when a device appears; read() meanwhile gives `timeout`. Frames are numbered on, and their
+/// and at once when a device appears; the read() that notices it and those that follow
+/// give `timeout`. Frames are numbered on, and their
 /// times go on by the clock of this machine, so that they show how long the device was away.
 ///
 /// A device that is not there at the start is waited for in read(); until it comes, info() tells what was

@@ -21,6 +21,10 @@ void tell_state(const SourceState& state);
 /// source. Levels that the user chose stay; check_levels() refuses them if they do not fit.
 void fit_default_levels(Settings& settings, SourceInfo& source);
 
+/// For a source without depth: throws Error (usage) if the model works on depth, and exchanges the selector
+/// `proto`, which does too, for `wta`, adding a note of it to the source.
+void fit_to_depth(Settings& settings, SourceInfo& source);
+
 /// Throws Error (usage) if `settings.start` is behind the last frame of the source.
 void check_start(const SourceInfo& source, const Settings& settings);
 

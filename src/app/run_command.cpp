@@ -59,6 +59,7 @@ class Run {
     Interrupt interrupt([this] { stop(); });
     auto source = open_source(uri, report_.settings.sensor);
     report_.source = source->info();
+    fit_to_depth(report_.settings, report_.source);
     fit_default_levels(report_.settings, report_.source);
     check_model(report_.settings, report_.source.size);
     check_start(report_.source, report_.settings);
@@ -230,7 +231,7 @@ void add_run_command(CLI::App& app, std::function<void()>& action, std::vector<s
   arguments->command_line = std::move(command_line);
   command
       .add_option("SOURCE", arguments->source,
-                  "openni2 (a live sensor), openni2:URI, a folder of images, FILE.oni, or "
+                  "openni2 (a live sensor), openni2:URI, a folder of images, FILE.oni, a video, or "
                   "synthetic:NAME?key=value&...")
       ->required();
   command.add_option("--out", arguments->out, "folder to write to, made if it is not there")

@@ -124,7 +124,6 @@ void OniRecordWriter::begin() {
   if (!file_.reserve(block.size() + closing_size()) || !file_.append(block))
     throw failed("disk full", file_.name(), kFullHint);
   file_.flush();
-  file_.flush_folder();
   pending_.clear();
   begun_ = true;
 }

@@ -36,8 +36,8 @@ class OniRecordWriter {
                     std::span<const std::uint8_t> value);
   void add_int(std::uint32_t node, std::string_view name, std::uint64_t value);
 
-  /// Writes everything up to the first frame and waits until it is on the disk, and the file in its folder.
-  /// Throws Error (failed), also where the disk has no room.
+  /// Writes everything up to the first frame and waits until it is on the disk. Throws Error (failed), also
+  /// where the disk has no room.
   void begin();
 
   /// Appends a frame; its number is its place in the node, from 1. False, with the file unchanged, if the
@@ -46,6 +46,8 @@ class OniRecordWriter {
 
   /// Waits until all that is written is on the disk. Throws Error (failed).
   void flush() { file_.flush(); }
+  /// Waits until the file's entry in its folder is on the disk; see OutputFile.
+  void flush_folder() { file_.flush_folder(); }
 
   /// Writes tables and counts. Nothing may follow. Throws Error (failed); the file is then readable as an
   /// interrupted one.

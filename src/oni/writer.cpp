@@ -94,6 +94,7 @@ void OniWriter::begin(const Frame& frame) {
     add_stream(kColourNode, frame);
   }
   records_.begin();
+  records_.flush_folder();
   begun_ = true;
 }
 

@@ -21,6 +21,7 @@ struct SourceInfo {
   std::optional<std::int64_t> frame_count;  ///< unknown for live sensors
   double rate_hz = 0;                       ///< nominal; 0 = unknown
   Intrinsics intrinsics;
+  bool has_depth = true;           ///< false: a plain camera or video, whose depth never has a reading
   bool live = false;               ///< frames come when they come; nothing can be read twice
   std::vector<std::string> notes;  ///< what the user should know: gaps, guesses; one line each
 };

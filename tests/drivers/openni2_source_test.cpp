@@ -27,7 +27,7 @@ const std::string kScene = "synthetic:table?size=160x120&noise=kinect&frames=5&s
 // OpenNI2 reads it when it starts, which is with the first device that a test wants.
 class Sensor : public ::testing::Test {
  protected:
-  static void SetUpTestSuite() { ::setenv("SACCADE_VIRTUAL_DEVICE", (kScene + "&rate=120").c_str(), 1); }
+  static void SetUpTestSuite() { ::setenv("SACCADE_VIRTUAL_DEVICE", kScene.c_str(), 1); }
 
   // The next frame; the device is given as long as it takes.
   static Frame next(FrameSource& source) {
@@ -178,8 +178,10 @@ TEST_F(Sensor, CannotBeRewound) { EXPECT_THROW(open_source("openni2")->seek(0), 
 
 TEST_F(Sensor, OpensAndClosesAtAnyMoment) {
   std::minstd_rand dice(7);
+  SensorSettings settings;
+  settings.mode = SensorMode{160, 120, 60};
   for (int i = 0; i < 40; ++i) {
-    const auto source = open_source("openni2");
+    const auto source = open_source("openni2", settings);
     for (auto frames = dice() % 4; frames > 0; --frames) next(*source);
     std::this_thread::sleep_for(std::chrono::microseconds(dice() % 12000));
   }
