@@ -108,7 +108,7 @@ void Session::work(const std::stop_token& token) {
 }
 
 void Session::run(const OpenRequest& request) {
-  std::unique_ptr<FrameSource> source = open_(request.uri);
+  std::unique_ptr<FrameSource> source = open_(request.uri, request.sensor);
   const SourceInfo info = source->info();
   SensorControls* const controls = source->controls();
   PipelineOptions options;

@@ -22,6 +22,7 @@ struct OpenRequest {
   std::string uri;
   PlayRange range;
   std::optional<Intrinsics> intrinsics;
+  SensorSettings sensor;  ///< of live sensors
 };
 
 /// How a session is doing.
@@ -58,7 +59,7 @@ struct FrameRecord {
 /// return at once, the destructor excepted, which waits for what is being opened or computed.
 class Session {
  public:
-  using Open = std::function<std::unique_ptr<FrameSource>(const std::string& uri)>;
+  using Open = std::function<std::unique_ptr<FrameSource>(const std::string& uri, const SensorSettings&)>;
 
   /// `wake` is called on any thread whenever there is something new to see.
   Session(Open open, std::function<void()> wake, Wishes wishes);

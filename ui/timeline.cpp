@@ -12,22 +12,26 @@ constexpr std::int64_t kMostFrames = 1 << 20;  // nobody plots more; it bounds w
 
 void Timeline::reset(std::int64_t frames) {
   entries_.assign(static_cast<std::size_t>(std::clamp<std::int64_t>(frames, 0, kMostFrames)), {});
-  newest_ = 0;
 }
 
-void Timeline::add(std::int64_t index, float strength, std::int64_t generation) {
+void Timeline::add(std::int64_t index, float strength, bool current) {
   if (index < 0 || index >= kMostFrames) return;
   const auto place = static_cast<std::size_t>(index);
   if (place >= entries_.size()) entries_.resize(place + 1);
-  entries_[place] = {true, strength, generation};
-  newest_ = std::max(newest_, generation);
+  entries_[place] = {true, strength, current};
+}
+
+void Timeline::age() {
+  for (Entry& entry : entries_) entry.current = false;
 }
 
 float Timeline::largest() const {
-  float largest = 0;
-  for (const Entry& entry : entries_)
-    if (entry.seen && entry.generation == newest_) largest = std::max(largest, entry.strength);
-  return largest;
+  float current = 0, all = 0;
+  for (const Entry& entry : entries_) {
+    all = std::max(all, entry.strength);
+    if (entry.current) current = std::max(current, entry.strength);
+  }
+  return current > 0 ? current : all;
 }
 
 std::int64_t frame_at(double x, double width, std::int64_t frames) {

@@ -11,20 +11,21 @@ class Timeline {
   struct Entry {
     bool seen = false;
     float strength = 0;
-    std::int64_t generation = 0;  ///< of the settings it was computed with
+    bool current = false;  ///< computed with the settings of now
   };
 
   /// Forgets everything. `frames` >= 0: of the recording; 0 = not known, then it grows.
   void reset(std::int64_t frames);
-  void add(std::int64_t index, float strength, std::int64_t generation);
+  void add(std::int64_t index, float strength, bool current);
+  /// The settings have changed: what is there is not current any more.
+  void age();
 
   const std::vector<Entry>& entries() const { return entries_; }
-  /// The largest strength of the newest generation, for the scale; 0 = nothing yet.
+  /// The largest strength, for the scale: of the current entries if there are any; 0 = nothing yet.
   float largest() const;
 
  private:
   std::vector<Entry> entries_;
-  std::int64_t newest_ = 0;
 };
 
 /// The frame under a place of a time line that shows `frames` frames over `width` pixels.

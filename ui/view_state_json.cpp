@@ -58,10 +58,15 @@ Json range_json(const std::optional<ValueRange>& range) {
   return range ? Json{range->low, range->high} : Json();
 }
 
+// What the tuning panel sets; which frames and how the program runs is said anew each time.
+constexpr std::array<std::string_view, 7> kTuned = {"model",    "kernel",    "length-scale", "normalisation",
+                                                    "selector", "fixations", "foa"};
+
 Json settings_json(const Settings& settings) {
   Json json = Json::object();
   for (const SettingSpec& spec : setting_specs())
-    if (spec.print(settings) != spec.print(Settings{})) json[std::string(spec.key)] = spec.print(settings);
+    if (std::find(kTuned.begin(), kTuned.end(), spec.key) != kTuned.end())
+      json[std::string(spec.key)] = spec.print(settings);
   if (settings.levels_chosen)
     json["levels"] = std::to_string(settings.first_level) + ".." + std::to_string(settings.last_level);
   return json;

@@ -17,6 +17,7 @@
 #include "app/oni_command.hpp"
 #include "app/record_command.hpp"
 #include "app/run_command.hpp"
+#include "app/view_command.hpp"
 #include "core/error.hpp"
 #include "core/version.hpp"
 
@@ -38,6 +39,7 @@ int run_program(int argc, char** argv) {
   app.require_subcommand(1);
   std::function<void()> action;
 
+  saccade::add_view_command(app, action);
   saccade::add_run_command(app, action, {argv, argv + argc});
   saccade::add_record_command(app, action);
   saccade::add_devices_command(app, action);

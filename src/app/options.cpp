@@ -29,8 +29,8 @@ void SettingsOptions::add_switch(CLI::App& command, const SettingSpec& spec) {
       std::string(spec.help) + (on ? " [on]" : ""));
 }
 
-Settings SettingsOptions::resolve() const {
-  Settings settings;
+Settings SettingsOptions::resolve(const Settings& base) const {
+  Settings settings = base;
   if (!config_.empty()) load_settings(settings, config_);
   for (const auto& [key, value] : given_) apply_setting(settings, key, value);
   return settings;

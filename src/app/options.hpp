@@ -21,8 +21,8 @@ class SettingsOptions {
   /// hold these too.
   explicit SettingsOptions(CLI::App& command, const std::set<std::string_view>& left_out = {});
 
-  /// After parsing: defaults, then the file, then the options. Throws Error (usage or unreadable).
-  Settings resolve() const;
+  /// After parsing: `base`, then the file, then the options. Throws Error (usage or unreadable).
+  Settings resolve(const Settings& base = {}) const;
 
  private:
   void add_switch(CLI::App& command, const SettingSpec& spec);

@@ -1,0 +1,140 @@
+#include "app/view_command.hpp"
+
+#include <cstdio>
+#include <memory>
+#include <mutex>
+
+#include <spdlog/spdlog.h>
+
+#include "app/command.hpp"
+#include "app/interrupt.hpp"
+#include "app/options.hpp"
+#include "core/error.hpp"
+#include "core/file.hpp"
+#include "drivers/open_source.hpp"
+#include "ui/viewer/viewer.hpp"
+
+namespace saccade {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr double kSmallestScale = 0.5, kLargestScale = 4;
+
+struct ViewArguments {
+  std::string source, size, screenshot, log;
+  std::int64_t after_frames = 1;
+  double ui_scale = 0;
+  bool paused = false;
+};
+
+cv::Size parse_size(const std::string& text) {
+  int width = 0, height = 0;
+  char rest = 0;
+  if (std::sscanf(text.c_str(), "%dx%d%c", &width, &height, &rest) != 2 || width < 480 || height < 360 ||
+      width > 16384 || height > 16384)
+    throw usage_error("bad value for size", "'" + text + "'", "expected WxH from 480x360 to 16384x16384");
+  return {width, height};
+}
+
+// The state of the last time. A file that cannot be read is no reason not to start.
+void load_state(ViewState& state, const fs::path& file) {
+  if (file.empty() || !fs::exists(file)) return;
+  try {
+    const auto bytes = read_file(file, 1u << 20);
+    apply_view_state(state, {bytes.begin(), bytes.end()});
+  } catch (const Error& error) {
+    spdlog::warn("{}", error.what());
+  }
+}
+
+void save_state(const ViewState& state, const fs::path& file) {
+  if (file.empty()) return;
+  std::error_code code;
+  fs::create_directories(file.parent_path(), code);
+  try {
+    write_file(file, std::string_view(view_state_json(state)));
+  } catch (const Error& error) {
+    spdlog::warn("{}", error.what());
+  }
+}
+
+void view(const ViewArguments& arguments, const SettingsOptions& options) {
+  ViewState state;
+  const fs::path folder = config_folder(), file = folder.empty() ? fs::path() : folder / "viewer.json";
+  load_state(state, file);
+  Settings& settings = state.tuning.a = options.resolve(state.tuning.a);
+  state.tuning.b.intrinsics = settings.intrinsics;
+  state.tuning.b.workers = settings.workers;
+  if (arguments.ui_scale > 0) state.ui_scale = arguments.ui_scale;
+  set_log_level(settings);
+
+  ViewerOptions viewer_options;
+  viewer_options.source = {arguments.source,
+                           {settings.start, settings.every, settings.frames},
+                           settings.intrinsics,
+                           settings.sensor};
+  if (arguments.source.empty())
+    viewer_options.source.uri = find_bundled_recording(fs::read_symlink("/proc/self/exe")).string();
+  if (!arguments.size.empty()) viewer_options.size = parse_size(arguments.size);
+  viewer_options.screenshot = arguments.screenshot;
+  viewer_options.after_frames = arguments.after_frames;
+  viewer_options.log = arguments.log;
+  viewer_options.paused = arguments.paused;
+
+  Viewer* running = nullptr;
+  std::mutex mutex;
+  bool stopped = false;
+  Interrupt interrupt([&] {
+    const std::lock_guard lock(mutex);
+    stopped = true;
+    if (running != nullptr) running->stop();
+  });
+  Viewer viewer(std::move(state), std::move(viewer_options), open_source);
+  {
+    const std::lock_guard lock(mutex);
+    running = &viewer;
+    if (stopped) viewer.stop();
+  }
+  viewer.run();
+  {
+    const std::lock_guard lock(mutex);
+    running = nullptr;
+  }
+  if (arguments.screenshot.empty()) save_state(viewer.state(), file);
+}
+
+}  // namespace
+
+fs::path find_bundled_recording(const fs::path& program) {
+  const fs::path installed = program.parent_path().parent_path() / "share/saccade/table.oni";
+  if (fs::exists(installed)) return installed;
+  for (fs::path folder = program.parent_path(); folder.has_relative_path(); folder = folder.parent_path())
+    if (const fs::path file = folder / "recordings/table.oni"; fs::exists(file)) return file;
+  return {};
+}
+
+void add_view_command(CLI::App& app, std::function<void()>& action) {
+  CLI::App& command = *app.add_subcommand("view", "the viewer: see what attracts attention, and tune it");
+  const auto arguments = std::make_shared<ViewArguments>();
+  ViewArguments& a = *arguments;
+  command.add_option("SOURCE", a.source, "as for run; the bundled recording if there is none");
+  command.add_option("--size", a.size, "of the window in pixels, instead of the last time's")
+      ->type_name("WxH");
+  command
+      .add_option("--ui-scale", a.ui_scale, "size of text and buttons, 1 = usual; 0 = what the screen says")
+      ->type_name("S")
+      ->check(CLI::Range(kSmallestScale, kLargestScale) | CLI::IsMember({0.0}));
+  command.add_flag("--paused", a.paused, "shows the first frame and waits");
+  command.add_option("--screenshot", a.screenshot, "write the window as a PNG and end")->type_name("FILE");
+  command.add_option("--after-frames", a.after_frames, "with --screenshot: after so many computed frames")
+      ->type_name("N")
+      ->check(CLI::Range(std::int64_t{1}, std::int64_t{1'000'000'000}));
+  command
+      .add_option("--ui-log", a.log, "a line of JSON for each frame of the window: its time, what it shows")
+      ->type_name("FILE");
+  const auto options = std::make_shared<SettingsOptions>(command, std::set<std::string_view>{"dump", "json"});
+  command.callback(
+      [arguments, options, &action] { action = [arguments, options] { view(*arguments, *options); }; });
+}
+
+}  // namespace saccade

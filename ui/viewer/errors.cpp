@@ -1,0 +1,44 @@
+#include <imgui.h>
+
+#include "ui/viewer/panels.hpp"
+#include "ui/viewer/widgets.hpp"
+
+namespace saccade {
+
+void ViewContext::tell(std::string line) {
+  constexpr double kNoticeTime_s = 3;
+  notice = std::move(line);
+  notice_until = ImGui::GetTime() + kNoticeTime_s;
+}
+
+// Each error stays until it is put away; the rest of the window lives on.
+void draw_errors(ViewContext& view) {
+  int gone = -1;
+  for (int i = 0; i < static_cast<int>(view.errors.size()); ++i) {
+    const std::string& line = view.errors[static_cast<std::size_t>(i)];
+    ImGui::PushID(i);
+    const float wrap = ImGui::GetContentRegionAvail().x - view.px(190);
+    const float text = ImGui::CalcTextSize(line.c_str(), nullptr, false, wrap).y;
+    const float height = std::max(text, ImGui::GetFrameHeight()) + 2 * view.px(8);
+    ImGui::PushStyleColor(ImGuiCol_ChildBg, as_vec4(view.colours->error_back));
+    ImGui::BeginChild("error", {0, height}, false,
+                      ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_AlwaysUseWindowPadding);
+    ImGui::PushTextWrapPos(wrap);
+    ImGui::PushStyleColor(ImGuiCol_Text, as_vec4(view.colours->error));
+    ImGui::TextWrapped("%s", line.c_str());
+    ImGui::PopStyleColor();
+    ImGui::PopTextWrapPos();
+    const float right = ImGui::GetWindowWidth() - view.px(172);
+    ImGui::SetCursorPos({right, view.px(8)});
+    if (ImGui::Button("Open another…")) view.act(Action::open_source);
+    ImGui::SameLine();
+    if (ImGui::Button("×")) gone = i;
+    tip("Put this away");
+    ImGui::EndChild();
+    ImGui::PopStyleColor();
+    ImGui::PopID();
+  }
+  if (gone >= 0) view.errors.erase(view.errors.begin() + gone);
+}
+
+}  // namespace saccade

@@ -1,0 +1,75 @@
+#pragma once
+
+#include <memory>
+
+#include "ui/viewer/probe_section.hpp"
+#include "ui/viewer/sensor_section.hpp"
+#include "ui/viewer/view_context.hpp"
+
+namespace saccade {
+
+// The parts of the window. A panel is one small file with a free function, or a class if it keeps something,
+// that draws into ImGui's current window. How to add one: ui/README.md.
+
+void draw_top_bar(ViewContext& view);
+void draw_tuning_panel(ViewContext& view);
+void draw_look_panel(ViewContext& view);
+void draw_transport(ViewContext& view);
+void draw_errors(ViewContext& view);
+void draw_performance_section(ViewContext& view);
+
+/// Windows over the others; `open` is what makes them appear and is cleared when they are put away.
+void draw_help(ViewContext& view, bool& open);
+
+/// The side bar with its sections.
+class Sidebar {
+ public:
+  void draw(ViewContext& view);
+  SensorSection& sensors() { return sensors_; }
+
+ private:
+  void draw_section(ViewContext& view, Section section);
+  ProbeSection probe_;
+  SensorSection sensors_;
+};
+
+/// What to open: a path, a recent source, a folder to look through.
+class OpenDialog {
+ public:
+  void show();
+  void draw(ViewContext& view);
+
+ private:
+  bool opening_ = false, focus_ = false;
+  char text_[1024] = "";
+};
+
+/// Saves and loads settings as TOML.
+class SettingsDialog {
+ public:
+  void show();
+  void draw(ViewContext& view);
+
+ private:
+  bool opening_ = false;
+  char path_[1024] = "";
+  std::string error_;
+};
+
+/// The picture: one, two side by side, or two divided.
+class PicturePanel {
+ public:
+  PicturePanel();
+  ~PicturePanel();
+  void draw(ViewContext& view);
+  void fit();
+
+ private:
+  struct Layers;
+  struct Place;
+  void draw_side(ViewContext& view, const Place& place);
+  void handle_mouse(ViewContext& view, const Place& place);
+  std::unique_ptr<Layers> layers_;
+};
+
+}  // namespace saccade
