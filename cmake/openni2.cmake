@@ -8,7 +8,7 @@
 #     libOpenNI2.so.0               -> the system's
 #     OpenNI2/Drivers/
 #       libPS1080.so.0, libPSLink.so.0  -> the system's
-#       libSaccadeVirtual.so.0          drivers/modules
+#       libSaccadeVirtual.so.0, libSaccadeFreenect.so.0  drivers/modules
 #
 # saccade_use_sensors(TARGET) makes a program or test do so, without any environment variable. A library that only calls
 # OpenNI2 links saccade_openni2. Other programs, such as NiViewer2, see our devices with LD_LIBRARY_PATH=<that folder>.

@@ -3,12 +3,14 @@
 #include <memory>
 #include <string>
 
+#include "core/settings.hpp"
 #include "pipeline/frame_source.hpp"
 
 namespace saccade {
 
 /// Opens what a user names SOURCE on the command line (SPEC section 7). Throws Error (usage) for a kind of
 /// source that is not known, Error (unreadable) for one that cannot be read.
-std::unique_ptr<FrameSource> open_source(const std::string& uri);
+/// `sensor` is for live sensors only.
+std::unique_ptr<FrameSource> open_source(const std::string& uri, const SensorSettings& sensor = {});
 
 }  // namespace saccade

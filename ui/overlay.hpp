@@ -35,6 +35,7 @@ struct OverlayStyle {
   bool outlines = true;  ///< of the proto-objects
   bool marks = true;     ///< numbered fixations
   bool path = true;      ///< lines from fixation to fixation
+  bool operator==(const OverlayStyle&) const = default;
 };
 
 /// The outer contour of a proto-object, or of a part of one, in pixels.

@@ -1,13 +1,27 @@
 #include "drivers/modules/announcer.hpp"
 
+#include <pthread.h>
+
 #include <utility>
 
 namespace saccade {
+namespace {
+
+// Longer than a program takes over being told of a device.
+constexpr std::chrono::milliseconds kStuck{500};
+
+}  // namespace
 
 Announcer::Announcer() : thread_([this](const std::stop_token& stop) { run(stop); }) {}
 
-Announcer::~Announcer() {
+void Announcer::stop() {
+  if (!thread_.joinable()) return;
   thread_.request_stop();
+  {
+    std::unique_lock lock(mutex_);
+    if (!changed_.wait_for(lock, kStuck, [this] { return ended_; }))
+      ::pthread_cancel(thread_.native_handle());
+  }
   thread_.join();
 }
 
@@ -20,6 +34,23 @@ void Announcer::at(Clock::time_point due, std::function<void()> action) {
 }
 
 void Announcer::run(const std::stop_token& stop) {
+  int before = 0;
+  ::pthread_setcancelstate(PTHREAD_CANCEL_DISABLE, &before);
+  take_actions(stop);
+  const std::lock_guard lock(mutex_);
+  ended_ = true;
+  changed_.notify_all();
+}
+
+void Announcer::call(const std::function<void()>& action) {
+  int before = 0;
+  ::pthread_setcanceltype(PTHREAD_CANCEL_ASYNCHRONOUS, &before);
+  ::pthread_setcancelstate(PTHREAD_CANCEL_ENABLE, &before);
+  action();
+  ::pthread_setcancelstate(PTHREAD_CANCEL_DISABLE, &before);
+}
+
+void Announcer::take_actions(const std::stop_token& stop) {
   std::unique_lock lock(mutex_);
   while (changed_.wait(lock, stop, [this] { return !actions_.empty(); })) {
     const Clock::time_point due = actions_.begin()->first;
@@ -30,7 +61,7 @@ void Announcer::run(const std::stop_token& stop) {
     }
     const std::function<void()> action = std::move(actions_.extract(actions_.begin()).mapped());
     lock.unlock();
-    action();
+    call(action);
     lock.lock();
     if (stop.stop_requested()) return;
   }

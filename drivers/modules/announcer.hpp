@@ -17,10 +17,15 @@ class Announcer {
   using Clock = std::chrono::steady_clock;
 
   Announcer();
-  /// Waits for the action that runs; those that wait for their time are dropped. Not from inside an action.
-  ~Announcer();
+  ~Announcer() { stop(); }
   Announcer(const Announcer&) = delete;
   Announcer& operator=(const Announcer&) = delete;
+
+  /// Waits for the action that runs; those that wait for their time, and those that come later, are dropped.
+  /// OpenNI2 holds its lock while it shuts its drivers down, and takes the same lock when it is told of a
+  /// device: an action that stands there would never end, so after a while it is cancelled where it waits.
+  /// Not from inside an action.
+  void stop();
 
   /// Any thread, actions too.
   void at(Clock::time_point due, std::function<void()> action);
@@ -28,10 +33,13 @@ class Announcer {
 
  private:
   void run(const std::stop_token& stop);
+  void take_actions(const std::stop_token& stop);
+  static void call(const std::function<void()>& action);
 
   std::mutex mutex_;
   std::condition_variable_any changed_;
   std::multimap<Clock::time_point, std::function<void()>> actions_;  // guarded by mutex_
+  bool ended_ = false;                                               // guarded by mutex_
   std::jthread thread_;
 };
 

@@ -148,7 +148,7 @@ void add_bench_command(CLI::App& app, std::function<void()>& action) {
   command.add_option("--seconds", *seconds, "time spent on each image size [2]")
       ->type_name("S")
       ->check(CLI::Range(0.0, 3600.0));
-  const auto options = std::make_shared<SettingsOptions>(command);
+  const auto options = std::make_shared<SettingsOptions>(command, sensor_keys_and({}));
   command.callback(
       [options, seconds, &action] { action = [options, seconds] { bench(options->resolve(), *seconds); }; });
 }

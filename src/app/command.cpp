@@ -1,5 +1,7 @@
 #include "app/command.hpp"
 
+#include <unistd.h>
+
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
@@ -16,9 +18,24 @@ void set_log_level(const Settings& settings) {
 void tell_notes(const SourceInfo& source, const Settings& settings) {
   for (const std::string& note : source.notes) spdlog::warn("{}: {}", source.uri, note);
   const Intrinsics& camera = source.intrinsics;
-  if (!settings.intrinsics && camera.origin == IntrinsicsOrigin::guess)
+  if (!settings.intrinsics && source.has_depth && camera.origin == IntrinsicsOrigin::guess)
     spdlog::warn("{}: no calibration, guessing fx={} fy={} cx={} cy={} (give --intrinsics fx,fy,cx,cy)",
                  source.uri, camera.fx, camera.fy, camera.cx, camera.cy);
+}
+
+void tell_state(const SourceState& state) {
+  switch (state.connection) {
+    case SourceState::Connection::streaming:
+      if (state.losses > 0)
+        spdlog::info("{} streams again; {} loss{}, {:.1f} s away in all", state.text, state.losses,
+                     state.losses == 1 ? "" : "es", state.away_s);
+      return;
+    case SourceState::Connection::waiting:
+      if (::isatty(STDERR_FILENO) == 1) spdlog::info("{}", state.text);
+      return;
+    case SourceState::Connection::lost:
+      spdlog::warn("{}", state.text);
+  }
 }
 
 void fit_default_levels(Settings& settings, SourceInfo& source) {
@@ -27,6 +44,16 @@ void fit_default_levels(Settings& settings, SourceInfo& source) {
   settings.last_level = deepest;
   source.notes.push_back(fmt::format("{}x{} images have room for levels 0..{} only, not for the default",
                                      source.size.width, source.size.height, deepest));
+}
+
+void fit_to_depth(Settings& settings, SourceInfo& source) {
+  if (source.has_depth) return;
+  if (settings.model == "symmetry3d" || settings.model == "combined")
+    throw usage_error(fmt::format("model {} needs depth, and there is none", settings.model), source.uri,
+                      "choose a model of the image: --model symmetry2d, colour_symmetry2d, radial2d or itti");
+  if (settings.selector != Selector::proto) return;
+  settings.selector = Selector::wta;
+  source.notes.emplace_back("the selector proto needs depth; wta chooses the points");
 }
 
 void check_start(const SourceInfo& source, const Settings& settings) {

@@ -57,7 +57,10 @@ EvalPlan make_plan(const EvalArguments& arguments, const Settings& settings, con
   if (plan.shard > plan.positions)
     throw usage_error(fmt::format("shard {} holds no frame", plan.shard), source.uri,
                       fmt::format("{} frames are selected: use as many shards or fewer", plan.positions));
-  check_levels(source.size, Symmetry3dParams::from(plan.settings));
+  for (Settings of_model = plan.settings; const std::string& model : plan.models) {
+    of_model.model = model;
+    check_model(of_model, source.size);
+  }
   return plan;
 }
 
@@ -222,7 +225,7 @@ void eval_merge(const EvalArguments& arguments, const Settings& settings) {
 void add_eval_command(CLI::App& app, std::function<void()>& action) {
   struct State {
     explicit State(CLI::App& command)
-        : options(command, {"model", "kernel", "selector", "fixations", "dump"}) {}
+        : options(command, sensor_keys_and({"model", "kernel", "selector", "fixations", "dump"})) {}
     EvalArguments arguments;
     SettingsOptions options;
   };

@@ -10,7 +10,6 @@
 #include "core/file.hpp"
 #include "core/png.hpp"
 #include "ui/colour_map.hpp"
-#include "ui/overlay.hpp"
 
 namespace saccade {
 namespace {
@@ -27,7 +26,7 @@ void write_tiff(const std::filesystem::path& path, const cv::Mat& image) {
 }  // namespace
 
 void write_frame(const std::filesystem::path& folder, const Result& result, const std::set<std::string>& dump,
-                 int first_level) {
+                 int first_level, const OverlayStyle& style) {
   const auto path = [&](const std::string& ending) {
     return folder / fmt::format("{:06}_{}", result.frame.index, ending);
   };
@@ -52,7 +51,8 @@ void write_frame(const std::filesystem::path& folder, const Result& result, cons
   if (const cv::Mat1w& labels = result.frame.truth.labels; dump.contains("labels") && !labels.empty())
     write_file(path("labels.png"), encode_png(labels));
   if (dump.contains("overlay"))
-    write_file(path("overlay.png"), encode_png(draw_overlay(result.frame, maps.master, result.attention)));
+    write_file(path("overlay.png"),
+               encode_png(draw_overlay(result.frame, maps.master, result.attention, style)));
 }
 
 }  // namespace saccade

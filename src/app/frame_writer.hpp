@@ -5,6 +5,7 @@
 #include <string>
 
 #include "pipeline/result.hpp"
+#include "ui/overlay.hpp"
 
 namespace saccade {
 
@@ -13,9 +14,9 @@ namespace saccade {
 /// overlay: NNNNNN_overlay.png; levels: NNNNNN_levelL.tiff at each level's own size; normals:
 /// NNNNNN_normals.tiff (x, y, z as 3 x 32-bit float, camera frame, 0 = none); masks: NNNNNN_masks.png
 /// (16-bit, rank of the fixation whose proto-object it is, 0 = none); labels: NNNNNN_labels.png (16-bit, the
-/// source's own instances, 0 = none) if it knows them. Throws Error (failed). Thread-safe for different
-/// frames.
+/// source's own instances, 0 = none) if it knows them. `style` is that of the overlay. Throws Error (failed).
+/// Thread-safe for different frames.
 void write_frame(const std::filesystem::path& folder, const Result& result, const std::set<std::string>& dump,
-                 int first_level);
+                 int first_level, const OverlayStyle& style = {});
 
 }  // namespace saccade

@@ -11,6 +11,8 @@
 #include <CLI/CLI.hpp>
 
 #include "app/bench_command.hpp"
+#include "app/devices_command.hpp"
+#include "app/doctor_command.hpp"
 #include "app/eval_command.hpp"
 #include "app/oni_command.hpp"
 #include "app/record_command.hpp"
@@ -40,6 +42,8 @@ int run_program(int argc, char** argv) {
   saccade::add_view_command(app, action);
   saccade::add_run_command(app, action, {argv, argv + argc});
   saccade::add_record_command(app, action);
+  saccade::add_devices_command(app, action);
+  saccade::add_doctor_command(app, action);
   saccade::add_eval_command(app, action);
   saccade::add_oni_command(app, action);
   saccade::add_bench_command(app, action);

@@ -39,16 +39,28 @@ Json settings_json(const Settings& settings) {
   return json;
 }
 
+Json times_json(const DurationHistogram& times) {
+  return {{"mean", rounded(times.mean_ms())},
+          {"p50", rounded(times.percentile_ms(0.50))},
+          {"p95", rounded(times.percentile_ms(0.95))},
+          {"p99", rounded(times.percentile_ms(0.99))},
+          {"max", rounded(times.max_ms())}};
+}
+
 Json stages_json(const StageStatistics& stages) {
   Json json = Json::object();
-  for (std::size_t i = 0; i < kStageNames.size(); ++i) {
-    const DurationHistogram& times = stages[static_cast<Stage>(i)];
-    json[std::string(kStageNames[i])] = {{"mean", rounded(times.mean_ms())},
-                                         {"p50", rounded(times.percentile_ms(0.50))},
-                                         {"p95", rounded(times.percentile_ms(0.95))},
-                                         {"max", rounded(times.max_ms())}};
-  }
+  for (std::size_t i = 0; i < kStageNames.size(); ++i)
+    json[std::string(kStageNames[i])] = times_json(stages[static_cast<Stage>(i)]);
   return json;
+}
+
+Json device_json(const SourceState& device) {
+  return {{"state", device.connection == SourceState::Connection::streaming ? "streaming"
+                    : device.connection == SourceState::Connection::lost    ? "lost"
+                                                                            : "waiting"},
+          {"text", device.text},
+          {"losses", device.losses},
+          {"away_s", rounded(device.away_s)}};
 }
 
 Json source_json(const SourceInfo& source) {
@@ -71,6 +83,9 @@ Json summary_json(const RunReport& report) {
   json["wall_s"] = rounded(report.wall_s);
   json["frames_per_s"] = rounded(rate);
   json["stages_ms"] = stages_json(report.stages);
+  json["latency_ms"] = times_json(report.latency);
+  json["dropped_by"] = {{"newer_frame", report.ledger.replaced}, {"end", report.ledger.stopped()}};
+  if (report.device) json["device"] = device_json(*report.device);
   return json;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -25,6 +26,8 @@ struct RunReport {
   Ledger ledger;
   std::vector<std::pair<std::int64_t, std::string>> rejected;  ///< source index and reason
   StageStatistics stages;
+  DurationHistogram latency;          ///< from the capture of a frame to its result
+  std::optional<SourceState> device;  ///< how a live source was doing at the end
   double wall_s = 0;
   std::string out;
 };

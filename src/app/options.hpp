@@ -25,9 +25,14 @@ class SettingsOptions {
   Settings resolve(const Settings& base = {}) const;
 
  private:
+  void add_switch(CLI::App& command, const SettingSpec& spec);
+
   std::string config_;
   std::vector<std::pair<std::string, std::string>>
       given_;  // key and value, in their order on the command line
 };
+
+/// The keys of live sensors and `also`: what a command without a live source leaves out.
+std::set<std::string_view> sensor_keys_and(std::set<std::string_view> also);
 
 }  // namespace saccade

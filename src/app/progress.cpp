@@ -28,6 +28,11 @@ std::string progress_text(std::int64_t done, std::optional<std::int64_t> total, 
   return text;
 }
 
+std::string live_text(const Ledger& ledger, const DurationHistogram& latency) {
+  return fmt::format("latency {:.0f} ms (95 %: {:.0f}), {} dropped", latency.percentile_ms(0.5),
+                     latency.percentile_ms(0.95), ledger.dropped);
+}
+
 Progress::Progress(bool wanted, std::optional<std::int64_t> total)
     : shown_(wanted && ::isatty(STDERR_FILENO) == 1), total_(total) {}
 
@@ -35,7 +40,7 @@ Progress::~Progress() {
   if (shown_) fmt::print(stderr, "\r\033[K");
 }
 
-void Progress::update(std::int64_t done) {
+void Progress::update(std::int64_t done, const std::function<std::string()>& more) {
   if (!shown_) return;
   const auto now = Clock::now();
   const bool complete = total_ && done >= *total_;
@@ -44,7 +49,9 @@ void Progress::update(std::int64_t done) {
   const double elapsed_s = std::chrono::duration<double>(now - begin_).count();
   const std::string picture =
       total_ && *total_ > 0 ? bar(static_cast<double>(done) / static_cast<double>(*total_)) : "";
-  fmt::print(stderr, "\r\033[K{}{}", picture, progress_text(done, total_, elapsed_s));
+  const std::string last = more ? more() : "";
+  fmt::print(stderr, "\r\033[K{}{}{}{}", picture, progress_text(done, total_, elapsed_s),
+             last.empty() ? "" : ", ", last);
   std::fflush(stderr);
 }
 

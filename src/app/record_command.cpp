@@ -10,13 +10,19 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <set>
+#include <string_view>
+#include <utility>
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 #include <nlohmann/json.hpp>
 
+#include "app/command.hpp"
 #include "app/interrupt.hpp"
+#include "app/options.hpp"
 #include "core/error.hpp"
+#include "core/file.hpp"
 #include "drivers/open_source.hpp"
 #include "oni/recorder.hpp"
 
@@ -30,10 +36,6 @@ constexpr std::size_t kQueueFrames = 30;  // a second of a camera, for when the 
 constexpr std::chrono::milliseconds kReadTimeout{500};
 constexpr auto kLinePeriod = std::chrono::milliseconds(200);
 
-std::string megabytes(double bytes) {
-  return bytes < 1e9 ? fmt::format("{:.1f} MB", bytes / 1e6) : fmt::format("{:.2f} GB", bytes / 1e9);
-}
-
 // One `saccade record`, from open source to closed file.
 class RecordRun {
  public:
@@ -41,7 +43,7 @@ class RecordRun {
 
   void execute() {
     Interrupt interrupt([this] { stop(); });
-    const auto source = open_source(arguments_.source);
+    const auto source = open_source(arguments_.source, arguments_.sensor);
     const SourceInfo& info = source->info();
     for (const std::string& note : info.notes) spdlog::warn("{}: {}", info.uri, note);
     live_ = info.live;
@@ -87,6 +89,7 @@ class RecordRun {
       const ReadResult result = source.read(frame, kReadTimeout);
       show_line(recorder);
       if (result.status == ReadStatus::end) return;
+      watch_state(source, result.status);
       if (result.status == ReadStatus::timeout) continue;
       if (result.status == ReadStatus::rejected) {
         ++rejected_;
@@ -104,6 +107,16 @@ class RecordRun {
     }
   }
 
+  // Told when it changes; only a source that gives nothing has something to tell.
+  void watch_state(const FrameSource& source, ReadStatus status) {
+    const bool waited = std::exchange(waited_, status == ReadStatus::timeout);
+    if (!waited && !waited_) return;
+    const SourceState state = source.state();
+    if (std::exchange(connection_, state.connection) == state.connection) return;
+    clear_line();
+    tell_state(state);
+  }
+
   double seconds() const { return std::chrono::duration<double>(Clock::now() - begin_).count(); }
 
   bool has_line() const { return !arguments_.quiet && ::isatty(STDERR_FILENO) == 1; }
@@ -115,11 +128,12 @@ class RecordRun {
     const OniWriterCounts counts = recorder.counts();
     std::error_code code;
     const auto space = fs::space(fs::path(arguments_.file).parent_path() / ".", code);
-    fmt::print(stderr, "\r\033[K{} frames, {:.1f}/s, {}{}, {} dropped", counts.frames,
+    fmt::print(stderr, "\r\033[K{} frames, {:.1f}/s, {}{}, {} dropped{}", counts.frames,
                static_cast<double>(counts.frames) / std::max(seconds(), 1e-3),
                megabytes(static_cast<double>(recorder.size_bytes())),
                code ? "" : fmt::format(" ({} free)", megabytes(static_cast<double>(space.available))),
-               counts.dropped);
+               counts.dropped,
+               counts.unsynced > 1 ? fmt::format(", slow disk: {} not on it yet", counts.unsynced) : "");
     std::fflush(stderr);
   }
 
@@ -142,13 +156,18 @@ class RecordRun {
                                            {"dropped", counts_.dropped},
                                            {"rejected", rejected_},
                                            {"rounded", counts_.rounded},
+                                           {"most_unsynced", counts_.most_unsynced},
                                            {"bytes", writer.size_bytes()},
                                            {"wall_s", wall_s}};
       fmt::print("{}\n", json.dump());
     } else if (!arguments_.quiet) {
-      fmt::print("{} frame{} in {:.2f} s, {}, {} dropped{}{}; see {}\n", counts_.frames,
+      fmt::print("{} frame{} in {:.2f} s, {}, {} dropped{}{}{}; see {}\n", counts_.frames,
                  counts_.frames == 1 ? "" : "s", wall_s, megabytes(static_cast<double>(writer.size_bytes())),
                  counts_.dropped, rejected_ > 0 ? fmt::format(", {} rejected", rejected_) : "",
+                 counts_.most_unsynced > 1
+                     ? fmt::format(", slow disk: up to {} frames at a time were not on it yet",
+                                   counts_.most_unsynced)
+                     : "",
                  interrupted_ ? ", interrupted" : "", arguments_.file);
     }
     std::fflush(stdout);
@@ -176,7 +195,8 @@ class RecordRun {
   }
 
   const RecordArguments& arguments_;
-  bool live_ = false, interrupted_ = false;
+  bool live_ = false, interrupted_ = false, waited_ = false;
+  SourceState::Connection connection_ = SourceState::Connection::streaming;
   std::int64_t taken_ = 0, rejected_ = 0;
   OniWriterCounts counts_;
   Clock::time_point begin_, last_line_;
@@ -222,11 +242,16 @@ void add_record_command(CLI::App& app, std::function<void()>& action) {
           "step of stored depth: auto (default: 0.1 mm if the first frame has fractions), 1mm or 100um")
       ->type_name("UNIT")
       ->transform(CLI::CheckedTransformer(unit, CLI::ignore_case).description(""));
+  std::set<std::string_view> others;
+  for (const SettingSpec& spec : setting_specs()) others.insert(spec.key);
+  for (const std::string_view key : kSensorKeys) others.erase(key);
+  const auto settings = std::make_shared<SettingsOptions>(command, others);
   command.add_flag("--force", a.options.overwrite, "replace FILE if it exists");
   command.add_flag("--quiet", a.quiet, "no progress and no summary, only warnings and errors");
   command.add_flag("--json", a.json, "the summary in JSON on standard output");
-  command.callback([arguments, &action] {
-    action = [arguments] {
+  command.callback([arguments, settings, &action] {
+    action = [arguments, settings] {
+      arguments->sensor = settings->resolve().sensor;
       if (arguments->quiet) spdlog::set_level(spdlog::level::warn);
       record(*arguments);
     };

@@ -6,6 +6,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "core/settings.hpp"
 #include "oni/writer.hpp"
 
 namespace saccade {
@@ -16,6 +17,7 @@ struct RecordArguments {
   double duration_s = 0;    ///< of recorded time; 0 = until the source ends or Ctrl-C
   std::int64_t frames = 0;  ///< at most so many; 0 = all
   OniWriterOptions options;
+  SensorSettings sensor;
   bool quiet = false;
   bool json = false;  ///< the summary as JSON
 };

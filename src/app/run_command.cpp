@@ -57,8 +57,9 @@ class Run {
 
   void execute(const std::string& uri) {
     Interrupt interrupt([this] { stop(); });
-    auto source = open_source(uri);
+    auto source = open_source(uri, report_.settings.sensor);
     report_.source = source->info();
+    fit_to_depth(report_.settings, report_.source);
     fit_default_levels(report_.settings, report_.source);
     check_model(report_.settings, report_.source.size);
     check_start(report_.source, report_.settings);
@@ -89,6 +90,11 @@ class Run {
     options.selection = {settings.start, settings.every, settings.frames};
     options.intrinsics = settings.intrinsics;
     options.slots = kSlotsInFlight + writers;
+    const bool live = report_.source.live;
+    if (live) {
+      options.policy = FramePolicy::newest;
+      options.on_state = tell_state;
+    }
     options.on_rejected = [this](std::int64_t index, const std::string& reason) { reject(index, reason); };
 
     LineFile fixations(folder_ / "fixations.jsonl");
@@ -98,13 +104,19 @@ class Run {
     WriterPool writer(writers, [&](const Result& result) {
       write_frame(folder_, result, settings.dump, settings.first_level);
     });
+    std::function<std::string()> more;
+    if (live) more = [&] { return live_text(pipeline.ledger(), pipeline.latency()); };
     try {
       while (ResultHandle result = pipeline.next()) {
-        if (!std::exchange(notes_told_, true)) tell_notes(report_.source, report_.settings);
+        if (!std::exchange(notes_told_, true)) {
+          // Of a sensor that came late only the frames know.
+          if (live) report_.source.intrinsics = result->frame.intrinsics;
+          tell_notes(report_.source, report_.settings);
+        }
         fixations.append(fixations_json(*result));
         report_.stages.add(result->times);
         writer.submit(std::move(result));
-        progress.update(pipeline.ledger().processed);
+        progress.update(pipeline.ledger().processed, more);
       }
       writer.finish();
     } catch (...) {
@@ -124,6 +136,8 @@ class Run {
       // The first error is on its way to the user already.
     }
     report_.ledger = pipeline.ledger();
+    report_.latency = pipeline.latency();
+    if (report_.source.live) report_.device = pipeline.source_state();
     report_.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   }
 
@@ -162,9 +176,10 @@ class Run {
       fmt::print("{}\n", summary_json(report_).dump());
     } else if (!report_.settings.quiet) {
       const Ledger& ledger = report_.ledger;
-      fmt::print("{} frame{} in {:.2f} s ({:.1f}/s){}{}; see {}\n", ledger.processed,
+      fmt::print("{} frame{} in {:.2f} s ({:.1f}/s){}{}{}; see {}\n", ledger.processed,
                  ledger.processed == 1 ? "" : "s", report_.wall_s,
                  static_cast<double>(ledger.processed) / std::max(report_.wall_s, 1e-9),
+                 report_.source.live ? ", " + live_text(ledger, report_.latency) : "",
                  ledger.rejected ? fmt::format(", {} rejected", ledger.rejected) : "",
                  report_.status == "interrupted" ? ", interrupted" : "", folder_.string());
     }
@@ -216,7 +231,8 @@ void add_run_command(CLI::App& app, std::function<void()>& action, std::vector<s
   arguments->command_line = std::move(command_line);
   command
       .add_option("SOURCE", arguments->source,
-                  "a folder of images, FILE.oni, or synthetic:NAME?key=value&...")
+                  "openni2 (a live sensor), openni2:URI, a folder of images, FILE.oni, a video, or "
+                  "synthetic:NAME?key=value&...")
       ->required();
   command.add_option("--out", arguments->out, "folder to write to, made if it is not there")
       ->required()

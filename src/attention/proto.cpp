@@ -77,6 +77,7 @@ void ProtoSelector::select(const cv::Mat1f& saliency, const cv::Mat1f& depth_mm,
   patches_.grow(grid_);
   smooth_cells(saliency, scratch_, value_);
   set_rays(depth_mm.size(), camera);
+  make_return_table();
   weigh();
   list_cells_of_patches();
   for (int rank = 1; rank <= fixations_; ++rank) {
@@ -92,6 +93,7 @@ void ProtoSelector::select(const cv::Mat1f& saliency, const cv::Mat1f& depth_mm,
     collect_proto_object(row, col);
     fixation.proto_object = paint(depth_mm, attention.masks, rank);
     inhibit();
+    discount_around(row, col);
     attention.fixations.push_back(fixation);
   }
 }
@@ -152,18 +154,37 @@ void ProtoSelector::collect_proto_object(int row, int col) {
 void ProtoSelector::inhibit() {
   const int cols = grid_.cols(), rows = grid_.rows();
   for (int i : object_) in_object_[at(i)] = 1;
-  int top = rows, bottom = -1;
   for (int i : object_) {
     const int r = i / cols, c = i % cols;
     value_[at(i)] = 0;
-    top = std::min(top, r), bottom = std::max(bottom, r);
     const bool inner = r > 0 && c > 0 && r + 1 < rows && c + 1 < cols && in_object_[at(i - 1)] &&
                        in_object_[at(i + 1)] && in_object_[at(i - cols)] && in_object_[at(i + cols)];
     if (!inner) clear_disc(r, c, kMarginCells);
   }
   for (int i : object_) in_object_[at(i)] = 0;
-  for (int r = std::max(0, top - kMarginCells); r <= std::min(rows - 1, bottom + kMarginCells); ++r)
-    row_best_[at(r)] = *std::max_element(value_.begin() + r * cols, value_.begin() + (r + 1) * cols);
+}
+
+void ProtoSelector::make_return_table() {
+  const float sigma = kReturnReach * static_cast<float>(grid_.cols());
+  return_table_.resize(at(std::max(grid_.rows(), grid_.cols())));
+  for (std::size_t d = 0; d < return_table_.size(); ++d) {
+    const float x = static_cast<float>(d) / sigma;
+    return_table_[d] = std::exp(-0.5F * x * x);
+  }
+}
+
+void ProtoSelector::discount_around(int row, int col) {
+  const int cols = grid_.cols();
+  for (int r = 0; r < grid_.rows(); ++r) {
+    const float depth = kReturnDepth * return_table_[at(std::abs(r - row))];
+    float* value = &value_[at(r * cols)];
+    float best = 0;
+    for (int c = 0; c < cols; ++c) {
+      value[c] *= 1 - depth * return_table_[at(std::abs(c - col))];
+      best = std::max(best, value[c]);
+    }
+    row_best_[at(r)] = best;
+  }
 }
 
 void ProtoSelector::clear_disc(int row, int col, int radius) {

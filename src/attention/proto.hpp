@@ -24,7 +24,10 @@ void smooth_cells(const cv::Mat1f& saliency, std::vector<float>& scratch, std::v
 ///  - the fixation is its pixel of the highest saliency on the cell's surface; ties as before;
 ///  - its proto-object is the patch of the cell; on a support, or where there is no patch, it is what of it
 ///    lies within kDiscCells;
-///  - the proto-object and a margin of kMarginCells around it are inhibited: their values become 0.
+///  - the proto-object and a margin of kMarginCells around it are inhibited: their values become 0;
+///  - inhibition of return: every value is multiplied by 1 - kReturnDepth * exp(-d^2 / 2 s^2), d the distance
+///    from the fixation in the image and s = kReturnReach of its width. Large things fall into several
+///    proto-objects; this sends the next points elsewhere first.
 /// It ends early when no value above 0 is left. A mask holds the pixels of the proto-object's cells that lie
 /// on its surface, not the margin; masks do not overlap.
 class ProtoSelector : public AttentionSelector {
@@ -32,6 +35,8 @@ class ProtoSelector : public AttentionSelector {
   static constexpr float kSupportWeight = 0.02F;
   static constexpr int kDiscCells = 10;   ///< radius; 40 px
   static constexpr int kMarginCells = 3;  ///< radius; 12 px
+  static constexpr float kReturnDepth = 0.6F;
+  static constexpr float kReturnReach = 3.0F / 32;  ///< 60 px of 640
 
   /// Throws std::invalid_argument unless fixations >= 1.
   explicit ProtoSelector(int fixations);
@@ -44,6 +49,8 @@ class ProtoSelector : public AttentionSelector {
   bool find_winner(int& row, int& col) const;
   void collect_proto_object(int row, int col);
   void inhibit();
+  void make_return_table();
+  void discount_around(int row, int col);
   void clear_disc(int row, int col, int radius);
   void set_rays(cv::Size size, const Intrinsics& camera);
   ProtoObject paint(const cv::Mat1f& depth_mm, cv::Mat1w& masks, int rank) const;
@@ -53,6 +60,7 @@ class ProtoSelector : public AttentionSelector {
   Patches patches_;
   std::vector<float> scratch_, value_;
   std::vector<float> row_best_;       ///< largest value of each row
+  std::vector<float> return_table_;   ///< exp(-d^2 / 2 s^2) by d in cells
   std::vector<float> ray_x_, ray_y_;  ///< x/z of each column, y/z of each row
   std::vector<int> first_of_patch_, cells_of_patch_;
   std::vector<int> object_;               ///< cells of the present proto-object

@@ -8,6 +8,8 @@
 #include <cstring>
 #include <fstream>
 
+#include <fmt/format.h>
+
 #include "core/error.hpp"
 
 namespace saccade {
@@ -66,6 +68,10 @@ void write_file(const std::filesystem::path& path, std::string_view text) {
     if (!special) ::unlink(target.c_str());
     throw write_error(path, problem);
   }
+}
+
+std::string megabytes(double bytes) {
+  return bytes < 1e9 ? fmt::format("{:.1f} MB", bytes / 1e6) : fmt::format("{:.2f} GB", bytes / 1e9);
 }
 
 LineFile::LineFile(const std::filesystem::path& path, Existing existing) : path_(path) {

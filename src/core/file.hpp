@@ -17,6 +17,9 @@ std::vector<std::uint8_t> read_file(const std::filesystem::path& path, std::uint
 void write_file(const std::filesystem::path& path, std::span<const std::uint8_t> bytes);
 void write_file(const std::filesystem::path& path, std::string_view text);
 
+/// A size for people: "12.3 MB", or "4.56 GB" from 1 GB on.
+std::string megabytes(double bytes);
+
 /// A text file that grows line by line; each line reaches the system in one write, so that what is there is
 /// whole.
 class LineFile {

@@ -74,12 +74,13 @@ SettingSpec choice(std::string_view key, std::string_view help, Enum Settings::*
           words};
 }
 
+bool parse_truth(const std::string& text) {
+  if (text != "true" && text != "false") throw std::invalid_argument("true or false");
+  return text == "true";
+}
+
 SettingSpec flag(std::string_view key, std::string_view help, bool Settings::*field) {
-  return {key, "", help,
-          [=](Settings& s, const std::string& text) {
-            if (text != "true" && text != "false") throw std::invalid_argument("true or false");
-            s.*field = text == "true";
-          },
+  return {key, "", help, [=](Settings& s, const std::string& text) { s.*field = parse_truth(text); },
           [=](const Settings& s) { return s.*field ? "true" : "false"; }};
 }
 
@@ -132,9 +133,66 @@ std::string print_dump(const Settings& s) {
   return s.dump.empty() ? "none" : fmt::format("{}", fmt::join(s.dump, ","));
 }
 
+void parse_mode(Settings& s, const std::string& text) {
+  if (text.empty()) return s.sensor.mode.reset();
+  const std::string expected = "WxH@HZ, e.g. 640x480@30";
+  const auto x = text.find('x'), at = text.find('@');
+  if (x == std::string::npos || (at != std::string::npos && at < x)) throw std::invalid_argument(expected);
+  SensorMode mode;
+  mode.width = parse_number(text.substr(0, x), 1, 16384, expected);
+  mode.height =
+      parse_number(text.substr(x + 1, at == std::string::npos ? at : at - x - 1), 1, 16384, expected);
+  if (at != std::string::npos) mode.rate_hz = parse_number(text.substr(at + 1), 1, 1000, expected);
+  s.sensor.mode = mode;
+}
+
+std::string print_mode(const Settings& s) {
+  if (!s.sensor.mode) return "";
+  return fmt::format("{}x{}@{}", s.sensor.mode->width, s.sensor.mode->height, s.sensor.mode->rate_hz);
+}
+
+SettingSpec sensor_flag(std::string_view key, std::string_view help, bool SensorSettings::*field) {
+  return {key, "", help, [=](Settings& s, const std::string& text) { s.sensor.*field = parse_truth(text); },
+          [=](const Settings& s) { return s.sensor.*field ? "true" : "false"; }};
+}
+
+std::vector<SettingSpec> sensor_specs() {
+  return {
+      {"mode", "WxH@HZ",
+       "live sensor: size and rate, e.g. 320x240@60; default 640x480@30, or the nearest it has", parse_mode,
+       print_mode},
+      sensor_flag("registration", "live sensor: depth as seen from the colour camera",
+                  &SensorSettings::registration),
+      sensor_flag("mirror", "live sensor: images mirrored left to right", &SensorSettings::mirror),
+      {"exposure", "N", "live sensor: exposure of the colour camera in the device's own unit, or auto",
+       [](Settings& s, const std::string& text) {
+         if (text == "auto")
+           s.sensor.exposure.reset();
+         else
+           s.sensor.exposure = parse_number(text, 0, 1'000'000, "auto or 0..1000000");
+       },
+       [](const Settings& s) {
+         return s.sensor.exposure ? fmt::format("{}", *s.sensor.exposure) : std::string("auto");
+       }},
+      {"white-balance", "NAME", "live sensor: auto, or fixed as it is",
+       [](Settings& s, const std::string& text) {
+         if (text != "auto" && text != "fixed") throw std::invalid_argument("auto or fixed");
+         s.sensor.auto_white_balance = text == "auto";
+       },
+       [](const Settings& s) { return s.sensor.auto_white_balance ? "auto" : "fixed"; }},
+      sensor_flag("reconnect", "live sensor: wait for a device that is lost; without it that is an error",
+                  &SensorSettings::reconnect),
+      {"wait", "S", "live sensor: seconds to wait for a device that is not there at the start",
+       [](Settings& s, const std::string& text) {
+         s.sensor.wait_s = parse_number(text, 0.0, 1e9, "seconds, 0..1e9");
+       },
+       [](const Settings& s) { return fmt::format("{}", s.sensor.wait_s); }},
+  };
+}
+
 std::vector<SettingSpec> make_specs() {
   constexpr std::int64_t kMany = 1'000'000'000;
-  return {
+  std::vector<SettingSpec> specs = {
       word("model",
            "saliency model: symmetry3d, combined, symmetry2d, colour_symmetry2d, radial2d, itti, "
            "itti_orientation, random or centre",
@@ -170,6 +228,11 @@ std::vector<SettingSpec> make_specs() {
       word("log-level", "trace, debug, info, warn, error or off", &Settings::log_level,
            {"trace", "debug", "info", "warn", "error", "off"}),
   };
+  const auto of_frames =
+      std::find_if(specs.begin(), specs.end(), [](const auto& s) { return s.key == "workers"; });
+  const auto sensor = sensor_specs();
+  specs.insert(of_frames, sensor.begin(), sensor.end());
+  return specs;
 }
 
 // Edits (insert, delete, replace) from a to b; to guess what a mistyped key was meant to be.

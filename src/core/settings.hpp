@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -19,6 +20,24 @@ enum class LengthScale {
 };
 enum class LevelNormalisation { none, max, itti };
 enum class Selector { proto, wta };
+
+/// A video mode of a sensor; written as 640x480@30.
+struct SensorMode {
+  int width = 640, height = 480;  ///< px
+  int rate_hz = 30;
+  bool operator==(const SensorMode&) const = default;
+};
+
+/// How a live sensor is to be used.
+struct SensorSettings {
+  std::optional<SensorMode> mode;  ///< none: 640x480@30, or what the device has that comes nearest
+  bool registration = true;        ///< depth as seen from the colour camera
+  bool mirror = false;
+  std::optional<int> exposure;  ///< in the device's own unit; none: automatic
+  bool auto_white_balance = true;
+  bool reconnect = true;  ///< a lost device is waited for; false: losing it is an error
+  double wait_s = 5;      ///< for a device that is not there at the start
+};
 
 /// Everything a person can set, with its default. The same names are the options of the command line and the
 /// keys of a TOML file; `setting_specs()` is the one list of them.
@@ -43,6 +62,8 @@ struct Settings {
   std::int64_t every = 1;   ///< take each n-th
   std::optional<Intrinsics> intrinsics;
 
+  SensorSettings sensor;
+
   // How the program runs
   int workers = 0;  ///< threads that compute; 0 = one per processor
   std::set<std::string> dump = {"maps", "overlay"};
@@ -63,6 +84,10 @@ struct SettingSpec {
 
   bool is_switch() const { return value.empty(); }
 };
+
+/// The keys of SensorSettings.
+inline constexpr std::array<std::string_view, 7> kSensorKeys = {
+    "mode", "registration", "mirror", "exposure", "white-balance", "reconnect", "wait"};
 
 /// All settings, in the order of the help.
 std::span<const SettingSpec> setting_specs();

@@ -62,7 +62,7 @@ void CombinedModel::reduce(const cv::Mat1f& map, cv::Mat1f& reduced) {
 
 // Of every 16th pixel.
 float CombinedModel::trust_in_3d(const cv::Mat1f& depth_mm) {
-  constexpr float kNearMm = 1200;
+  constexpr float kNearMm = 1000;
   constexpr int kStep = 1 << kReducedLevel;
   depths_.clear();
   for (int r = 0; r < depth_mm.rows; r += kStep)

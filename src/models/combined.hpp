@@ -17,7 +17,7 @@ namespace saccade {
 ///  2. This map, that of itti and that of symmetry2d are reduced to 1/4 of the image, smoothed by a Gaussian
 ///     of 6 px and divided by their maximum.
 ///  3. They are added with more trust t in 3D the nearer the scene is, z being the median depth of the frame,
-///       (1/2 + t/2) * 3D + (1 - t) * (itti + 1/4 * symmetry2d),   t = 1/(1 + (z/z_1)^4),   z_1 = 1200 mm,
+///       (1/2 + t/2) * 3D + (1 - t) * (itti + 1/4 * symmetry2d),   t = 1/(1 + (z/z_1)^4),   z_1 = 1000 mm,
 ///     and the sum is brought back to full size. Without any depth t = 0, and the image alone counts.
 class CombinedModel : public SaliencyModel {
  public:

@@ -66,7 +66,7 @@ IttiModel::IttiModel(const char* name, bool orientation_only, WorkerPool& pool)
 void IttiModel::resize(cv::Size size) {
   if (size == size_) return;
   size_ = size;
-  constexpr int kSmallestMap = 8, kMostFiner = 2;
+  constexpr int kSmallestMap = 24, kMostFiner = 2;
   finer_ = 0;
   const auto map_side = [&] {
     const cv::Size map = level_size(size, kMapLevel - finer_);

@@ -19,7 +19,7 @@ struct Decoded16z {
 };
 
 /// Decodes without reading or writing outside of its arguments, whatever the payload holds. Keeps the scratch
-/// memory of the table between frames (256 KiB). Thread safety: one decode() at a time per object.
+/// memory of the table between frames (264 KiB). Thread safety: one decode() at a time per object.
 class Decoder16z {
  public:
   /// Decodes `payload` into `pixels`. A payload with more pixels than fit is a fault; one with fewer is not,
@@ -27,7 +27,9 @@ class Decoder16z {
   Decoded16z decode(Codec16z codec, std::span<const std::uint8_t> payload, std::span<std::uint16_t> pixels);
 
  private:
-  std::vector<std::uint32_t> table_;  // of every symbol
+  void load_table(std::span<const std::uint8_t> values);
+
+  std::vector<std::uint32_t> table_;  // of every symbol, and some beyond
   std::size_t filled_ = 0;            // entries with a value, at the front
 };
 

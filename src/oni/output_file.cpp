@@ -111,6 +111,14 @@ void OutputFile::flush() {
     throw write_error(name_, "cannot write to the disk", errno);
 }
 
+void OutputFile::flush_folder() {
+  const auto folder = std::filesystem::path(name_).parent_path() / ".";
+  const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor < 0) return;  // a folder that may be written to and not read
+  ::fsync(descriptor);
+  ::close(descriptor);
+}
+
 void OutputFile::release_reserve() {
   if (reserved_ > size_ && ::ftruncate(descriptor_, static_cast<off_t>(size_)) != 0)
     throw write_error(name_, "cannot write", errno);

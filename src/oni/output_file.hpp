@@ -37,6 +37,10 @@ class OutputFile {
   /// Waits until everything is on the disk. Throws Error (failed).
   void flush();
 
+  /// Waits until the folder's entry for the file is on the disk; without it, a power cut may take the file as
+  /// a whole. Does nothing where folders cannot be flushed.
+  void flush_folder();
+
   /// Gives back the room that was kept and not used.
   void release_reserve();
 

@@ -46,6 +46,8 @@ class OniRecordWriter {
 
   /// Waits until all that is written is on the disk. Throws Error (failed).
   void flush() { file_.flush(); }
+  /// Waits until the file's entry in its folder is on the disk; see OutputFile.
+  void flush_folder() { file_.flush_folder(); }
 
   /// Writes tables and counts. Nothing may follow. Throws Error (failed); the file is then readable as an
   /// interrupted one.

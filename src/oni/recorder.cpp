@@ -4,6 +4,13 @@
 #include <utility>
 
 namespace saccade {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr std::chrono::seconds kLongestUnsynced{1};
+
+}  // namespace
 
 OniRecorder::OniRecorder(OniWriter& writer, std::size_t capacity) : writer_(writer), capacity_(capacity) {
   if (capacity < 1) throw std::invalid_argument("OniRecorder: the queue needs room for a frame");
@@ -30,6 +37,7 @@ bool OniRecorder::offer(const Frame& frame) {
 
 void OniRecorder::push(const Frame& frame) {
   std::unique_lock lock(mutex_);
+  source_waits_ = true;
   changed_.wait(lock, [this] { return error_ || queue_.size() < capacity_; });
   rethrow();
   add(lock, frame);
@@ -82,8 +90,15 @@ std::uint64_t OniRecorder::size_bytes() const {
   return size_bytes_;
 }
 
+// Frames of a camera that wait already go out first: waiting for the disk once for all of them takes no
+// longer than for one.
+bool OniRecorder::time_to_sync(Clock::time_point last) const {
+  return queue_.empty() || source_waits_ || Clock::now() - last >= kLongestUnsynced;
+}
+
 void OniRecorder::work() {
   std::unique_lock lock(mutex_);
+  Clock::time_point last_sync = Clock::now();
   try {
     for (;;) {
       changed_.wait(lock, [this] { return finishing_ || !queue_.empty(); });
@@ -99,6 +114,12 @@ void OniRecorder::work() {
       counts_ = writer_.counts();
       size_bytes_ = writer_.size_bytes();
       recycled_.push_back(std::move(frame));
+      if (!time_to_sync(last_sync)) continue;
+      lock.unlock();
+      writer_.sync();
+      last_sync = Clock::now();
+      lock.lock();
+      counts_ = writer_.counts();
     }
     const std::uint64_t dropped = dropped_;
     lock.unlock();

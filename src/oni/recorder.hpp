@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <condition_variable>
 #include <cstddef>
 #include <deque>
@@ -15,6 +16,11 @@ namespace saccade {
 /// Writes frames on a thread of its own, so that a slow disk does not hold up the camera: between the two is
 /// a queue of bounded length. A camera offers its frames, and those that find the queue full are dropped and
 /// counted, also in the file; a source that can wait pushes them, and none is dropped.
+///
+/// Each frame is made to reach the disk before the next is written, so that a power cut takes no more than
+/// the frame being written and those that wait. A disk too slow for that gets the frames that came meanwhile
+/// together (still at least once a second), rather than that any is dropped; counts().unsynced tells how many
+/// frames are at stake.
 /// Thread safety: one thread calls offer(), push() and finish().
 class OniRecorder {
  public:
@@ -44,6 +50,7 @@ class OniRecorder {
   void work();
   void add(std::unique_lock<std::mutex>& lock, const Frame& frame);
   void rethrow();
+  bool time_to_sync(std::chrono::steady_clock::time_point last) const;
 
   OniWriter& writer_;
   const std::size_t capacity_;
@@ -53,6 +60,7 @@ class OniRecorder {
   std::deque<Frame> recycled_;  // frames whose memory is used again
   std::uint64_t dropped_ = 0;
   bool finishing_ = false, abandoned_ = false;
+  bool source_waits_ = false;  // frames are pushed
   std::exception_ptr error_;
   OniWriterCounts counts_;
   std::uint64_t size_bytes_ = 0;

@@ -53,7 +53,7 @@ std::vector<std::uint8_t> mode_bytes(cv::Size size, double rate_hz) {
 }  // namespace
 
 OniWriter::OniWriter(const std::filesystem::path& path, const OniWriterOptions& options)
-    : options_(options), records_(path, options.overwrite), last_flush_(std::chrono::steady_clock::now()) {
+    : options_(options), records_(path, options.overwrite) {
   if (options.jpeg_quality < 1 || options.jpeg_quality > 100)
     throw std::invalid_argument("OniWriter: quality must be 1..100");
 }
@@ -94,6 +94,7 @@ void OniWriter::begin(const Frame& frame) {
     add_stream(kColourNode, frame);
   }
   records_.begin();
+  records_.flush_folder();
   begun_ = true;
 }
 
@@ -210,11 +211,14 @@ void OniWriter::write(const Frame& frame) {
   if (!records_.write_frame(kDepthNode, time, depth_payload_)) stop_for_full_disk();
   ++counts_.frames;
   if (with_colour && !records_.write_frame(kColourNode, time, colour_payload_)) stop_for_full_disk();
-  const auto now = std::chrono::steady_clock::now();
-  if (now - last_flush_ >= options_.flush_interval) {
-    records_.flush();
-    last_flush_ = now;
-  }
+  ++counts_.unsynced;
+  counts_.most_unsynced = std::max(counts_.most_unsynced, counts_.unsynced);
+}
+
+void OniWriter::sync() {
+  if (counts_.unsynced == 0) return;
+  records_.flush();
+  counts_.unsynced = 0;
 }
 
 void OniWriter::note_dropped(std::uint64_t total) { counts_.dropped = total; }
@@ -240,6 +244,7 @@ void OniWriter::close() {
   }
   add_closing_properties();
   records_.close();
+  counts_.unsynced = 0;
 }
 
 }  // namespace saccade

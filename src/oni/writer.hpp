@@ -1,6 +1,5 @@
 #pragma once
 
-#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -30,8 +29,6 @@ struct OniWriterOptions {
   /// Make a colour stream even if the first frame has no colour; for cameras whose colour starts later.
   bool expect_colour = false;
   bool overwrite = false;
-  /// The disk is made to hold what was written at least so often: what a power cut can take.
-  std::chrono::milliseconds flush_interval{1000};
 };
 
 /// What became of the frames that were given to a writer.
@@ -42,10 +39,13 @@ struct OniWriterCounts {
   double largest_rounding_mm = 0;
   std::uint64_t out_of_range_pixels = 0;  ///< too far for the unit; stored as no reading
   std::uint64_t colourless = 0;           ///< frames without colour although the file has a colour stream
+  std::uint64_t unsynced = 0;             ///< written frames that a power cut now could take
+  std::uint64_t most_unsynced = 0;        ///< the largest number of those at any time
 };
 
 /// Records frames to an .oni file that survives the program: killed at any moment, at most the frame that
-/// is being written is lost, and a full disk leaves a closed file of all frames before.
+/// is being written is lost, and a full disk leaves a closed file of all frames before. After a power cut,
+/// all frames before the last sync() are there.
 ///
 /// Depth in whole steps of the unit is stored bit for bit: integer millimetres up to 65535 in a 1 mm file,
 /// tenths up to 6553.5 mm in a 0.1 mm one. Other depth (of a synthetic scene without a sensor's
@@ -62,11 +62,15 @@ class OniWriter {
   OniWriter(const OniWriter&) = delete;
   OniWriter& operator=(const OniWriter&) = delete;
 
-  /// Writes a frame. The first one decides the size, the unit and whether there is colour.
-  /// Throws Error (failed) for a full disk, after closing the file with all frames before; for another size
-  /// than the first frame's; for depth that the codec cannot hold (more than 32768 different values in 16zT,
-  /// a jump to a value >= 32768 in 16zP), with the file unchanged.
+  /// Writes a frame, which from here on outlives the program, but a power cut only after sync(). The first
+  /// one decides the size, the unit and whether there is colour. Throws Error (failed) for a full disk, after
+  /// closing the file with all frames before; for another size than the first frame's; for depth that the
+  /// codec cannot hold (more than 32768 different values in 16zT, a jump to a value >= 32768 in 16zP), with
+  /// the file unchanged.
   void write(const Frame& frame);
+
+  /// Waits until all frames so far are on the disk. Throws Error (failed).
+  void sync();
 
   /// The number of frames so far that were captured and will never be written; kept in the file.
   void note_dropped(std::uint64_t total);
@@ -95,7 +99,6 @@ class OniWriter {
   cv::Size size_;
   std::int64_t origin_us_ = 0;
   std::uint64_t written_drops_ = 0;
-  std::chrono::steady_clock::time_point last_flush_;
   Encoder16z encoder_16z_;
   JpegCodec jpeg_;
   std::vector<std::uint16_t> stored_;

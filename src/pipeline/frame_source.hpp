@@ -9,6 +9,7 @@
 #include <opencv2/core.hpp>
 
 #include "core/frame.hpp"
+#include "pipeline/sensor_controls.hpp"
 
 namespace saccade {
 
@@ -20,6 +21,7 @@ struct SourceInfo {
   std::optional<std::int64_t> frame_count;  ///< unknown for live sensors
   double rate_hz = 0;                       ///< nominal; 0 = unknown
   Intrinsics intrinsics;
+  bool has_depth = true;           ///< false: a plain camera or video, whose depth never has a reading
   bool live = false;               ///< frames come when they come; nothing can be read twice
   std::vector<std::string> notes;  ///< what the user should know: gaps, guesses; one line each
 };
@@ -68,6 +70,9 @@ class FrameSource {
 
   /// How the source is doing; of interest for live sources. Any thread.
   virtual SourceState state() const { return {}; }
+
+  /// What can be changed on an open sensor; nullptr for other sources.
+  virtual SensorControls* controls() { return nullptr; }
 
   /// Makes a read() that waits return soon, with timeout.
   virtual void interrupt() noexcept {}

@@ -105,6 +105,7 @@ void Pipeline::capture_frames() {
     slot->times = {};
     const ReadResult read = read_into(*slot);
     if (read.status == ReadStatus::end) return;
+    watch_state(read.status);
     if (read.status == ReadStatus::timeout) continue;
     if (!seekable && slot->frame.index < wanted) continue;
     const std::int64_t index = slot->frame.index;
@@ -127,6 +128,14 @@ ReadResult Pipeline::read_into(Result& slot) {
   slot.captured_at = Clock::now();
   if (options_.intrinsics) slot.frame.intrinsics = *options_.intrinsics;
   return read;
+}
+
+// A state changes only where the source has waited, so that a frame that comes in time costs nothing.
+void Pipeline::watch_state(ReadStatus status) {
+  const bool waited = std::exchange(waited_, status == ReadStatus::timeout);
+  if (!options_.on_state || (!waited && !waited_)) return;
+  const SourceState state = source_->state();
+  if (std::exchange(told_, state.connection) != state.connection) options_.on_state(state);
 }
 
 // Gives a captured frame to the compute thread; returns the slot for the next one, null to end.

@@ -41,6 +41,8 @@ struct PipelineOptions {
   int slots = 4;
   /// Called on the capture thread for each frame that cannot be used.
   std::function<void(std::int64_t index, const std::string& reason)> on_rejected;
+  /// Called on the capture thread when a source that waits tells something new: its device is lost, or back.
+  std::function<void(const SourceState&)> on_state;
 };
 
 /// From a source to results, in order:
@@ -85,6 +87,9 @@ class Pipeline {
   /// How the source is doing. Any thread.
   SourceState source_state() const { return source_->state(); }
 
+  /// What can be changed on the source's sensor; nullptr if it has none. Lives as long as the pipeline.
+  SensorControls* controls() { return source_->controls(); }
+
  private:
   friend struct ReturnSlot;
 
@@ -92,6 +97,7 @@ class Pipeline {
   void capture() noexcept;
   void capture_frames();
   ReadResult read_into(Result& slot);
+  void watch_state(ReadStatus status);
   Result* hand_over(Result* slot);
   void compute() noexcept;
   bool process(Result& slot) noexcept;
@@ -109,6 +115,9 @@ class Pipeline {
   std::atomic<bool> stopping_ = false;
   LedgerCounters counters_;
   std::int64_t results_ = 0;  // compute thread only
+  // Capture thread only: what on_state was told, and whether the last read() had to wait for nothing.
+  SourceState::Connection told_ = SourceState::Connection::streaming;
+  bool waited_ = false;
   std::mutex error_mutex_;
   std::exception_ptr error_;   // guarded by error_mutex_; the first
   bool ended_ = false;         // consumer's thread only

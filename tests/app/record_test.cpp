@@ -1,5 +1,6 @@
 // saccade record, as a user meets it: killed, interrupted, on a full disk.
 #include <signal.h>
+#include <sys/mount.h>
 #include <sys/resource.h>
 
 #include <filesystem>
@@ -122,6 +123,23 @@ TEST_F(RecordTest, AFullDiskLeavesAClosedFileOfAllFramesBefore) {
     EXPECT_GT(expect_frames_of_source(in("full.oni")), 5);
     EXPECT_TRUE(sound(in("full.oni")));
   }
+}
+
+TEST_F(RecordTest, AFullFileSystemLeavesAClosedFileOfAllFramesBefore) {
+  const std::string disk = in("disk");
+  std::filesystem::create_directory(disk);
+  if (::mount("tmpfs", disk.c_str(), "tmpfs", 0, "size=200k") != 0)
+    GTEST_SKIP() << "no file system may be mounted here";
+  const Outcome outcome = run_saccade({"record", kSource, disk + "/full.oni"});
+  const std::int64_t frames = expect_frames_of_source(disk + "/full.oni");
+  const bool is_sound = sound(disk + "/full.oni");
+  ASSERT_EQ(::umount2(disk.c_str(), MNT_DETACH), 0);
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_TRUE(outcome.one_error_line());
+  EXPECT_THAT(outcome.err, HasSubstr("disk full"));
+  EXPECT_THAT(outcome.err, HasSubstr("the " + std::to_string(frames) + " frames before are safe"));
+  EXPECT_GT(frames, 5);
+  EXPECT_TRUE(is_sound);
 }
 
 TEST_F(RecordTest, BadArgumentsAreUsageErrorsAndLeaveNoFile) {

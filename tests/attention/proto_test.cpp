@@ -80,6 +80,24 @@ TEST(ProtoSelector, TouchingBoxesOfDifferentHeightsAreTwo) {
   for (int rank = 1; rank <= 2; ++rank) expect_proto_object(scene, attention, rank, rank);
 }
 
+// The second and the third box have nearly the same saliency; the third is far from the first fixation.
+TEST(ProtoSelector, TheNextPointGoesElsewhereFirst) {
+  const TableScene scene =
+      look_at_table({box(-250, 100, 80, 80, 80), box(-130, 100, 80, 80, 100), box(250, 100, 80, 80, 80)});
+  const auto second_fixation = [&](float nearer) {
+    const cv::Mat1f map = hills(scene.labels.size(), {{middle_of(scene.labels, 1), 2},
+                                                      {middle_of(scene.labels, 2), nearer},
+                                                      {middle_of(scene.labels, 3), 1}});
+    ProtoSelector selector(3);
+    Attention attention;
+    selector.select(map, scene.depth_mm, scene.camera, attention);
+    EXPECT_EQ(scene.labels(attention.fixations.at(0).row, attention.fixations.at(0).col), 1);
+    return scene.labels(attention.fixations.at(1).row, attention.fixations.at(1).col);
+  };
+  EXPECT_EQ(second_fixation(1.05F), 3);
+  EXPECT_EQ(second_fixation(1.9F), 2);  // it is a discount and no ban
+}
+
 TEST(ProtoSelector, AFixationOnTheTableTakesADiscOfItOnly) {
   const TableScene scene = look_at_table({box(0, 150, 100, 100, 100)});
   const cv::Mat1f map = hills(scene.labels.size(), {{{200, 380}, 1}});

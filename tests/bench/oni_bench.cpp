@@ -1,8 +1,8 @@
 // How fast recordings are read, beside OpenNI2's own player on the same file in the same run.
 //   oni_bench FILE.oni [FRAMES]
 // The depth frames of FILE (of any size; 640 x 480 is the usual one) are recorded in turn until there are
-// FRAMES of them (default 600), depth alone, in a temporary file. Time is processor time of the whole
-// process, so that a player with threads of its own gains nothing by them.
+// FRAMES of them (default 600), depth alone, in a temporary file, once in each coded form. Time is processor
+// time of the whole process, so that a player with threads of its own gains nothing by them.
 #include <OpenNI.h>
 #include <unistd.h>
 
@@ -46,10 +46,12 @@ double measure(const char* name, const std::function<int()>& read) {
   return cpu_ms;
 }
 
-void make_recording(const fs::path& from, const fs::path& to, int frames) {
+void make_recording(const fs::path& from, const fs::path& to, OniDepthCodec codec, int frames) {
   OniSource source(from);
-  OniWriter writer(
-      to, {.colour_codec = OniColourCodec::off, .rate_hz = source.info().rate_hz, .overwrite = true});
+  OniWriter writer(to, {.depth_codec = codec,
+                        .colour_codec = OniColourCodec::off,
+                        .rate_hz = source.info().rate_hz,
+                        .overwrite = true});
   Frame frame;
   int read_in_turn = 0;
   for (int k = 0; k < frames;) {
@@ -112,20 +114,26 @@ int seek_at_random(OniSource& source) {
   return kSeeks;
 }
 
-void run(const fs::path& file, int frames) {
+void compare(const fs::path& file, OniDepthCodec codec, const char* name, int frames) {
   const fs::path long_file = fs::temp_directory_path() / fmt::format("saccade_bench_{}.oni", ::getpid());
-  make_recording(file, long_file, frames);
-  fmt::print("{} frames of depth, {} bytes\n", frames, fs::file_size(long_file));
+  make_recording(file, long_file, codec, frames);
+  fmt::print("{} frames of depth in {}, {} bytes\n", frames, name, fs::file_size(long_file));
   play_stored(long_file);  // once, so that the file is in memory for everyone
   const double ours = measure("Saccade, depth as stored", [&] { return play_stored(long_file); });
   measure("Saccade, depth in mm (OniSource)", [&] { return play_source(long_file); });
-  OniSource depth_only(long_file), original(file);
-  measure("Saccade, random seeks, depth", [&] { return seek_at_random(depth_only); });
-  measure("Saccade, random seeks, depth and colour", [&] { return seek_at_random(original); });
+  OniSource source(long_file);
+  measure("Saccade, random seeks, depth", [&] { return seek_at_random(source); });
   const double stock = measure("OpenNI2's player, depth as stored", [&] { return play_stock(long_file); });
   fmt::print("Saccade decodes depth {:.2f} times as fast per core as OpenNI2's player\n", stock / ours);
-  std::fflush(stdout);
   fs::remove(long_file);
+}
+
+void run(const fs::path& file, int frames) {
+  compare(file, OniDepthCodec::z16t, "16zT", frames);
+  compare(file, OniDepthCodec::z16p, "16zP", frames);
+  OniSource original(file);
+  measure("Saccade, random seeks, depth and colour", [&] { return seek_at_random(original); });
+  std::fflush(stdout);
 }
 
 }  // namespace

@@ -63,5 +63,10 @@ TEST_F(FileTest, MissingAndTooLargeFilesAreUnreadable) {
   EXPECT_THROW(read_file(folder_ / "a", 4), Error);
 }
 
+TEST(Megabytes, GigabytesFromOneOn) {
+  EXPECT_EQ(megabytes(12'340'000), "12.3 MB");
+  EXPECT_EQ(megabytes(4.56e9), "4.56 GB");
+}
+
 }  // namespace
 }  // namespace saccade

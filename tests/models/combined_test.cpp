@@ -81,7 +81,7 @@ TEST(Combined, IsTheWeighedSumOfItsMaps) {
     cv::minMaxLoc(map, nullptr, &highest);
     return as_double(map, 1 / highest);
   };
-  const double x = static_cast<double>(depths[depths.size() / 2]) / 1200, trust = 1 / (1 + std::pow(x, 4));
+  const double x = static_cast<double>(depths[depths.size() / 2]) / 1000, trust = 1 / (1 + std::pow(x, 4));
   const cv::Mat1d depth_part = reduce(noise_aware), itti = reduce(map_of("itti", frame)),
                   grey_part = reduce(map_of("symmetry2d", frame));
   const cv::Mat1f map = map_of("combined", frame);

@@ -75,16 +75,20 @@ TEST(UpsampleRows, InterpolatesBetweenTheEvenPixels) {
 class PopOut : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(PopOut, OneBarOfAnotherOrientation) {
-  for (const cv::Size size : {cv::Size(640, 480), cv::Size(500, 390)})
+  for (const auto& [size, spacing] : {std::pair{cv::Size(640, 480), 80},
+                                      {cv::Size(500, 390), 80},
+                                      {cv::Size(320, 240), 40},
+                                      {cv::Size(256, 256), 42}})
     for (const auto& [angle, odd_angle] : {std::pair{0.0, 90.0}, {90.0, 0.0}, {45.0, 135.0}, {20.0, 110.0}})
       for (const cv::Point odd : {cv::Point(5, 1), cv::Point(2, 3), cv::Point(3, 2)}) {
         BarDisplay display;
         display.size = size;
+        display.spacing = spacing;
         display.angle_deg = angle;
         display.odd_angle_deg = odd_angle;
         display.odd_row = odd.y;
         display.odd_col = odd.x;
-        EXPECT_LT(display.miss(map_of(GetParam(), frame_of(display.draw()))), 40)
+        EXPECT_LT(display.miss(map_of(GetParam(), frame_of(display.draw()))), spacing / 2)
             << size << " " << angle << " " << odd;
       }
 }

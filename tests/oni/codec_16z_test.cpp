@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "oni/bytes.hpp"
 #include "reference_16z.hpp"
 
 namespace saccade {
@@ -120,6 +121,58 @@ TEST(Codec16z, AgreesWithTheReferenceOnGarbage) {
     }
     expect_as_reference(table ? Codec16z::table : Codec16z::plain, payload, random() % 600);
   }
+}
+
+TEST(Codec16z, AgreesWithTheReferenceOnLongGarbage) {
+  Random random(5);
+  for (int round = 0; round < 400; ++round) {
+    Bytes payload(200 + random() % 3000);
+    const unsigned escapes = random() % 3;  // none, few or many
+    for (auto& byte : payload) {
+      byte = static_cast<std::uint8_t>(random());
+      if (escapes == 0 || (escapes == 1 && random() % 20 != 0)) byte = byte % 0xE0 & 0xF7;
+    }
+    if (round % 2 == 1) {
+      payload[0] = 100;  // values in the table
+      payload[1] = 0;
+    }
+    expect_as_reference(round % 2 == 1 ? Codec16z::table : Codec16z::plain, payload, random() % 9000);
+  }
+}
+
+TEST(Codec16z, AgreesWithTheReferenceWhereSymbolsWrap) {
+  Random random(6);
+  Bytes table = {0xFF, 0xFF};  // every symbol but the last has a value
+  for (unsigned i = 0; i < 65535; ++i) {
+    table.push_back(static_cast<std::uint8_t>(random()));
+    table.push_back(static_cast<std::uint8_t>(random()));
+  }
+  for (const unsigned start : {0u, 1u, 500u, 1023u, 1024u, 64000u, 65000u, 65534u})
+    for (const std::uint8_t step : {std::uint8_t{0x00}, std::uint8_t{0xDE}}) {  // the longest, up and down
+      for (std::size_t length = 1; length < 20000; length = 2 * length + 1) {
+        Bytes symbols = {static_cast<std::uint8_t>(start), static_cast<std::uint8_t>(start >> 8)};
+        symbols.insert(symbols.end(), length, step);
+        expect_as_reference(Codec16z::plain, symbols, 40001);
+        symbols.insert(symbols.begin(), table.begin(), table.end());
+        expect_as_reference(Codec16z::table, symbols, 40001);
+      }
+    }
+}
+
+TEST(Codec16z, ATableOfFewerValuesForgetsTheOneBefore) {
+  Decoder16z decoder;
+  Pixels pixels(4);
+  const auto decode = [&](const Pixels& values, std::uint8_t symbol) {
+    ByteBuilder payload;
+    payload.put(static_cast<std::uint16_t>(values.size()));
+    for (const std::uint16_t value : values) payload.put(value);
+    payload.put(std::uint16_t{symbol});
+    return decoder.decode(Codec16z::table, payload.bytes(), pixels);
+  };
+  EXPECT_EQ(decode({10, 20, 30}, 2).fault, nullptr);
+  EXPECT_NE(decode({10, 20}, 2).fault, nullptr);
+  EXPECT_EQ(decode({10, 20, 30, 40}, 3).fault, nullptr);
+  EXPECT_EQ(pixels[0], 40);
 }
 
 TEST(Codec16z, AgreesWithTheReferenceOnDamagedFrames) {

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include <opencv2/core.hpp>
+#include <opencv2/videoio.hpp>
+
+namespace saccade {
+
+/// Colour images of a video file or a numbered sequence, in the order of their times.
+class ColourVideo {
+ public:
+  /// `backend` as in cv::VideoCapture. Throws Error (unreadable) without a first image.
+  ColourVideo(std::string name, int backend, double rate_hz);
+
+  cv::Size size() const { return ahead_.size(); }
+  double rate_hz() const { return rate_hz_; }
+
+  /// Reads the next image (BGR) into `image`. False at the end.
+  bool read(cv::Mat3b& image, std::int64_t& time_us);
+
+  /// The image nearest to `time_us`, at most `tolerance_us` away; false if there is none. The times asked for
+  /// may also go back, which reads the video anew.
+  bool nearest(std::int64_t time_us, std::int64_t tolerance_us, cv::Mat3b& image);
+
+  /// Leaves an image out. False at the end.
+  bool skip();
+
+ private:
+  void open();
+  void advance();
+
+  std::string name_;
+  int backend_;
+  double rate_hz_;
+  cv::VideoCapture capture_;
+  std::int64_t count_ = 0;  // images read
+  // What nearest() chooses between; ahead_ is the later one, empty at the end.
+  cv::Mat now_, ahead_;
+  std::int64_t now_us_ = 0, ahead_us_ = 0;
+};
+
+}  // namespace saccade

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <libfreenect.h>
+
+#include <chrono>
+#include <condition_variable>
+#include <functional>
+#include <mutex>
+#include <set>
+#include <stop_token>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace saccade {
+
+/// libfreenect, and the one thread that calls it: what others want of it they send here. Frames are handed
+/// on, and devices are counted, on this thread.
+class FreenectLoop {
+ public:
+  /// Starts. `on_count` is told every second how many Kinects are there; `on_failure` that the streams ended:
+  /// one was pulled out. Throws Error (failed) without USB.
+  FreenectLoop(std::function<void(int)> on_count, std::function<void()> on_failure);
+  ~FreenectLoop();
+  FreenectLoop(const FreenectLoop&) = delete;
+  FreenectLoop& operator=(const FreenectLoop&) = delete;
+
+  /// Runs `call` on the thread and waits for it. Any other thread.
+  void run(const std::function<void(freenect_context*)>& call);
+
+  /// Whether `device` has streams to serve; only inside run().
+  void set_streaming(const void* device, bool streaming);
+
+  /// What libfreenect last complained of, and forgets it; may be empty.
+  static std::string take_complaint();
+
+ private:
+  void work(const std::stop_token& stop);
+  void take_calls(std::unique_lock<std::mutex>& lock);
+  void serve();
+
+  freenect_context* context_ = nullptr;
+  const std::function<void(int)> on_count_;
+  const std::function<void()> on_failure_;
+  std::set<const void*> streaming_;  // the thread's own
+  std::chrono::steady_clock::time_point next_count_{};
+  std::mutex mutex_;
+  std::condition_variable_any changed_;
+  std::vector<const std::function<void(freenect_context*)>*> calls_;  // guarded by mutex_
+  std::jthread thread_;
+};
+
+}  // namespace saccade

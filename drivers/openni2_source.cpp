@@ -1,0 +1,366 @@
+#include "drivers/openni2_source.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+#include <stdexcept>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+
+namespace saccade {
+namespace {
+
+using std::chrono::milliseconds;
+using Connection = SourceState::Connection;
+
+constexpr milliseconds kSilence{2000}, kSilenceAfterOpening{5000};
+constexpr milliseconds kFirstBackOff{100}, kLongestBackOff{2000};
+constexpr milliseconds kPoll{20};  // how soon an interrupt or a loss is noticed
+constexpr const char* kScheme = "openni2";
+constexpr const char* kHint = "plug in a sensor; saccade doctor looks for the reason";
+
+std::string device_uri(const std::string& uri) {
+  const std::string scheme = kScheme;
+  return uri.size() > scheme.size() ? uri.substr(scheme.size() + 1) : "";
+}
+
+SensorValues wanted_values(const SensorSettings& settings) {
+  SensorValues wanted;
+  wanted.registration = settings.registration;
+  wanted.mirror = settings.mirror;
+  wanted.auto_exposure = !settings.exposure;
+  wanted.exposure = settings.exposure;
+  wanted.auto_white_balance = settings.auto_white_balance;
+  return wanted;
+}
+
+// Lays what is not empty in `from` over `to`.
+void lay_over(SensorValues& to, const SensorValues& from) {
+  const auto lay = [](auto& a, const auto& b) {
+    if (b) a = b;
+  };
+  lay(to.registration, from.registration);
+  lay(to.mirror, from.mirror);
+  lay(to.auto_exposure, from.auto_exposure);
+  lay(to.exposure, from.exposure);
+  lay(to.auto_white_balance, from.auto_white_balance);
+}
+
+std::string name_of(const DeviceIdentity& device) {
+  return fmt::format("{} {} ({})", device.vendor, device.name, device.uri);
+}
+
+milliseconds time_left(std::chrono::steady_clock::time_point deadline) {
+  return std::chrono::ceil<milliseconds>(deadline - std::chrono::steady_clock::now());
+}
+
+std::int64_t microseconds_between(std::chrono::steady_clock::time_point from,
+                                  std::chrono::steady_clock::time_point to) {
+  return std::chrono::duration_cast<std::chrono::microseconds>(to - from).count();
+}
+
+}  // namespace
+
+OpenNi2Source::OpenNi2Source(const std::string& uri, const SensorSettings& settings)
+    : settings_(settings),
+      wanted_uri_(device_uri(uri)),
+      runtime_(OpenNi2Runtime::instance()),
+      back_off_(kFirstBackOff),
+      wanted_(wanted_values(settings)) {
+  const SensorMode mode = settings.mode.value_or(SensorMode{});
+  info_.uri = uri;
+  info_.kind = kScheme;
+  info_.live = true;
+  info_.size = {mode.width, mode.height};
+  info_.rate_hz = mode.rate_hz;
+  info_.intrinsics = Intrinsics::guess_for(info_.size);
+  set_state(Connection::waiting, "waiting for a device", Clock::now());
+  wait_until_ = Clock::now() + std::chrono::duration_cast<Clock::duration>(
+                                   std::chrono::duration<double>(std::min(settings.wait_s, 1e8)));
+  try_to_connect();
+  if (!device_) {
+    give_up_waiting();
+    return;
+  }
+  info_.size = device_->size();
+  info_.rate_hz = device_->rate_hz();
+  info_.intrinsics = device_->intrinsics();
+  info_.notes = device_->notes();
+}
+
+OpenNi2Source::~OpenNi2Source() = default;
+
+void OpenNi2Source::seek(std::int64_t) {
+  throw std::logic_error("a live sensor has no other frame to go to");
+}
+
+SourceState OpenNi2Source::state() const {
+  const std::lock_guard lock(mutex_);
+  SourceState state = state_;
+  if (away_since_) state.away_s += std::chrono::duration<double>(Clock::now() - *away_since_).count();
+  return state;
+}
+
+void OpenNi2Source::set_state(Connection connection, const std::string& text, Clock::time_point since) {
+  const std::lock_guard lock(mutex_);
+  state_.connection = connection;
+  state_.text = text;
+  state_.since = since;
+}
+
+SensorValues OpenNi2Source::values() const {
+  const std::lock_guard lock(mutex_);
+  return values_;
+}
+
+void OpenNi2Source::request(const SensorValues& wanted) {
+  const std::lock_guard lock(mutex_);
+  lay_over(wanted_, wanted);
+  lay_over(requested_, wanted);
+}
+
+void OpenNi2Source::apply_requests() {
+  SensorValues requested;
+  {
+    const std::lock_guard lock(mutex_);
+    requested = std::exchange(requested_, {});
+  }
+  if (requested == SensorValues{}) return;
+  device_->apply(requested);
+  const std::lock_guard lock(mutex_);
+  values_ = device_->values();
+}
+
+void OpenNi2Source::interrupt() noexcept {
+  const std::lock_guard lock(mutex_);
+  interrupted_ = true;
+  wake_.notify_all();
+}
+
+ReadResult OpenNi2Source::read(Frame& frame, milliseconds timeout) {
+  const Clock::time_point deadline = Clock::now() + timeout;
+  do {
+    {
+      const std::lock_guard lock(mutex_);
+      if (std::exchange(interrupted_, false)) break;
+    }
+    if (!device_) {
+      wait_for_device(deadline);
+      if (runtime_.arrivals() != arrivals_ || Clock::now() >= next_try_) try_to_connect();
+      if (device_)
+        check_size();
+      else
+        give_up_waiting();
+    } else if (std::optional<ReadResult> result = poll_device(frame, deadline)) {
+      return *std::move(result);
+    }
+  } while (Clock::now() < deadline);
+  return {ReadStatus::timeout, ""};
+}
+
+void OpenNi2Source::wait_for_device(Clock::time_point deadline) {
+  std::unique_lock lock(mutex_);
+  wake_.wait_until(lock, std::min({deadline, next_try_, Clock::now() + kPoll}),
+                   [this] { return interrupted_; });
+}
+
+// What comes first only: a device that was there once is waited for as long as it takes.
+void OpenNi2Source::give_up_waiting() {
+  if (last_device_ || Clock::now() < wait_until_) return;
+  if (!last_failure_.empty()) throw unreadable(last_failure_, "", "");
+  throw unreadable(wanted_uri_.empty() ? "no sensor is connected" : "this sensor is not connected", info_.uri,
+                   kHint);
+}
+
+void OpenNi2Source::try_to_connect() {
+  arrivals_ = runtime_.arrivals();
+  next_try_ = Clock::now() + back_off_;
+  back_off_ = std::min(2 * back_off_, kLongestBackOff);
+  const auto devices = runtime_.devices();
+  const int index = choose_device(devices, wanted_uri_, last_device_);
+  if (index < 0) return;
+  const DeviceIdentity& found = devices[static_cast<std::size_t>(index)];
+  trouble_ = runtime_.trouble(found.uri).count;
+  SensorValues wanted;
+  {
+    const std::lock_guard lock(mutex_);
+    wanted = wanted_;
+    requested_ = {};
+  }
+  try {
+    device_ = std::make_unique<OpenNi2Device>(found, settings_, wanted);
+  } catch (const Error& error) {
+    if (error.status() == ExitStatus::usage) throw;
+    last_failure_ = error.what();
+    return;
+  }
+  took_device();
+}
+
+// What info() has told holds.
+void OpenNi2Source::check_size() const {
+  if (device_->size() == info_.size) return;
+  throw failed(fmt::format("the device gives {}x{}, not {}x{}", device_->size().width, device_->size().height,
+                           info_.size.width, info_.size.height),
+               name_of(device_->identity()), "start again, or give the --mode that it has");
+}
+
+void OpenNi2Source::took_device() {
+  const bool first = !last_device_;
+  last_device_ = device_->identity();
+  last_failure_.clear();
+  back_off_ = kFirstBackOff;
+  period_us_ = 1'000'000 / std::max(1, device_->rate_hz());
+  last_depth_us_.reset();
+  opened_at_ = Clock::now();
+  frames_since_opening_ = false;
+  clock_offset_us_.reset();
+  pending_us_.reset();
+  for (TimedColour& colour : colours_) colour.time_us.reset();
+  {
+    const std::lock_guard lock(mutex_);
+    values_ = device_->values();
+  }
+  if (first) set_state(Connection::streaming, name_of(*last_device_), opened_at_);
+}
+
+std::optional<ReadResult> OpenNi2Source::poll_device(Frame& frame, Clock::time_point deadline) {
+  apply_requests();
+  if (const std::string why = reason_of_loss(); !why.empty()) {
+    if (pending_us_) return deliver(frame);
+    lose(why);
+    return ReadResult{ReadStatus::timeout, ""};  // at once, so that a short loss is seen, too
+  }
+  const milliseconds slice = std::clamp(time_left(deadline), milliseconds(0), kPoll);
+  switch (device_->wait(slice)) {
+    case OpenNi2Device::Ready::depth:
+      if (auto result = take_depth(frame)) return result;
+      break;
+    case OpenNi2Device::Ready::colour:
+      take_colour();
+      break;
+    case OpenNi2Device::Ready::nothing:
+      break;
+  }
+  if (pending_us_ && pending_is_ripe()) return deliver(frame);
+  return std::nullopt;
+}
+
+// A rejected frame is given at once; a good one becomes the pending one, and drives out the one before.
+std::optional<ReadResult> OpenNi2Source::take_depth(Frame& frame) {
+  std::int64_t time_us = 0;
+  const std::string bad = device_->read_depth(depth_, time_us);
+  came_back();
+  if (!bad.empty()) {
+    frame.index = next_index_++;
+    frame.timestamp_us = continuous_time(time_us);
+    return ReadResult{ReadStatus::rejected, bad};
+  }
+  std::optional<ReadResult> result;
+  if (pending_us_) result = deliver(frame);
+  cv::swap(depth_, pending_);
+  pending_us_ = time_us;
+  if (last_depth_us_ && time_us > *last_depth_us_)
+    period_us_ = std::min(period_us_, time_us - *last_depth_us_);
+  last_depth_us_ = time_us;
+  return result;
+}
+
+void OpenNi2Source::take_colour() {
+  TimedColour& older = colours_[1 - newest_colour_];
+  std::int64_t time_us = 0;
+  older.time_us.reset();
+  if (!device_->read_colour(older.image, time_us).empty()) return;
+  older.time_us = time_us;
+  newest_colour_ = 1 - newest_colour_;
+}
+
+const OpenNi2Source::TimedColour* OpenNi2Source::colour_of_pending() const {
+  const TimedColour* best = nullptr;
+  // Within half a period it is of no other depth frame, and none that comes later is nearer.
+  std::int64_t least_us = period_us_ / 2;
+  for (const TimedColour& colour : colours_) {
+    if (!colour.time_us) continue;
+    const std::int64_t apart_us = std::abs(*colour.time_us - *pending_us_);
+    if (apart_us > least_us) continue;
+    best = &colour;
+    least_us = apart_us;
+  }
+  return best;
+}
+
+// Its colour is there, or will not come any more.
+bool OpenNi2Source::pending_is_ripe() const {
+  if (!device_->has_colour() || colour_of_pending() != nullptr) return true;
+  const auto& newest_us = colours_[newest_colour_].time_us;
+  return newest_us && *newest_us > *pending_us_;
+}
+
+ReadResult OpenNi2Source::deliver(Frame& frame) {
+  const TimedColour* colour = colour_of_pending();
+  cv::swap(frame.depth_mm, pending_);
+  if (colour != nullptr)
+    colour->image.copyTo(frame.colour);
+  else
+    frame.colour.release();
+  frame.index = next_index_++;
+  frame.timestamp_us = continuous_time(*pending_us_);
+  frame.name.clear();
+  frame.intrinsics = device_->intrinsics();
+  frame.truth = {};
+  pending_us_.reset();
+  return {ReadStatus::frame, colour == nullptr && device_->has_colour() ? "no colour frame of its time" : ""};
+}
+
+// The first frame has the time 0; after a loss the machine's clock tells how long it took. Never goes back.
+std::int64_t OpenNi2Source::continuous_time(std::int64_t device_us) {
+  if (!first_frame_at_) first_frame_at_ = Clock::now();
+  if (!clock_offset_us_)
+    clock_offset_us_ =
+        std::max(microseconds_between(*first_frame_at_, Clock::now()), next_time_us_) - device_us;
+  const std::int64_t time_us = std::max(device_us + *clock_offset_us_, next_time_us_);
+  next_time_us_ = time_us + 1;
+  return time_us;
+}
+
+std::string OpenNi2Source::reason_of_loss() const {
+  const OpenNi2Runtime::Trouble trouble = runtime_.trouble(device_->identity().uri);
+  if (trouble.count != trouble_) return trouble.text;
+  const Clock::time_point heard = frames_since_opening_ ? last_frame_at_ : opened_at_;
+  const milliseconds patience = frames_since_opening_ ? kSilence : kSilenceAfterOpening;
+  if (Clock::now() - heard <= patience) return "";
+  return fmt::format("it gives no depth for {} s", patience.count() / 1000);
+}
+
+void OpenNi2Source::lose(const std::string& why) {
+  const std::string name = name_of(device_->identity());
+  device_.reset();
+  back_off_ = kFirstBackOff;
+  next_try_ = Clock::now();
+  if (!settings_.reconnect) throw failed("the sensor is lost: " + why, name, kHint);
+  const std::lock_guard lock(mutex_);
+  values_ = {};
+  state_.connection = Connection::lost;
+  state_.text = fmt::format("{} is lost: {}", name, why);
+  if (away_since_) return;  // it came back without a frame: this is still the same loss
+  away_since_ = frames_since_opening_ ? last_frame_at_ : opened_at_;
+  state_.since = *away_since_;
+  ++state_.losses;
+}
+
+// A depth frame has come.
+void OpenNi2Source::came_back() {
+  last_frame_at_ = Clock::now();
+  frames_since_opening_ = true;
+  const std::lock_guard lock(mutex_);
+  if (!away_since_) return;
+  state_.away_s += std::chrono::duration<double>(last_frame_at_ - *away_since_).count();
+  away_since_.reset();
+  state_.connection = Connection::streaming;
+  state_.text = name_of(*last_device_);
+  state_.since = last_frame_at_;
+}
+
+}  // namespace saccade

@@ -1,0 +1,78 @@
+#include "app/devices_command.hpp"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "drivers/openni2_devices.hpp"
+
+namespace saccade {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::vector<std::string> to_text(const std::vector<SensorMode>& modes) {
+  std::vector<std::string> texts;
+  for (const SensorMode& mode : modes)
+    texts.push_back(fmt::format("{}x{}@{}", mode.width, mode.height, mode.rate_hz));
+  return texts;
+}
+
+std::string usb_id(const DeviceIdentity& device) {
+  if (device.usb_vendor == 0) return "";
+  return fmt::format("{:04x}:{:04x}", device.usb_vendor, device.usb_product);
+}
+
+Json to_json(const DeviceListing& device) {
+  Json json = {{"name", device.identity.name},
+               {"vendor", device.identity.vendor},
+               {"uri", device.identity.uri},
+               {"source", device.source},
+               {"driver", device.driver},
+               {"usb_id", usb_id(device.identity)},
+               {"serial", device.serial},
+               {"depth_modes", to_text(device.depth_modes)},
+               {"colour_modes", to_text(device.colour_modes)}};
+  if (!device.problem.empty()) json["problem"] = device.problem;
+  return json;
+}
+
+void tell(const DeviceListing& device) {
+  fmt::print("{} {}\n  source  {}\n", device.identity.vendor, device.identity.name, device.source);
+  const auto line = [](const char* what, const std::string& text) {
+    if (!text.empty()) fmt::print("  {:<7} {}\n", what, text);
+  };
+  line("driver", device.driver);
+  line("USB", usb_id(device.identity));
+  line("serial", device.serial);
+  line("depth", fmt::format("{}", fmt::join(to_text(device.depth_modes), ", ")));
+  line("colour", fmt::format("{}", fmt::join(to_text(device.colour_modes), ", ")));
+  line("problem", device.problem);
+}
+
+}  // namespace
+
+void devices(bool json) {
+  auto list = list_devices();
+  for (DeviceListing& device : list) look_into(device);
+  if (json) {
+    Json array = Json::array();
+    for (const DeviceListing& device : list) array.push_back(to_json(device));
+    fmt::print("{}\n", Json{{"devices", array}}.dump(2));
+    return;
+  }
+  if (list.empty()) fmt::print("no sensor is connected; saccade doctor looks for the reason\n");
+  for (const DeviceListing& device : list) tell(device);
+}
+
+void add_devices_command(CLI::App& app, std::function<void()>& action) {
+  CLI::App& command = *app.add_subcommand("devices", "what is connected, and through which driver");
+  const auto json = std::make_shared<bool>(false);
+  command.add_flag("--json", *json, "in JSON on standard output");
+  command.callback([json, &action] { action = [json] { devices(*json); }; });
+}
+
+}  // namespace saccade

@@ -1,0 +1,108 @@
+#include "app/doctor.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+namespace saccade {
+namespace {
+
+using Part = UsbSensorKind::Part;
+using Access = UsbSensor::Access;
+
+constexpr double kHighSpeed_mbps = 480;
+
+std::string title(const UsbSensor& sensor) {
+  return fmt::format("{} ({:04x}:{:04x}, port {})", sensor.kind.name, sensor.kind.vendor, sensor.product,
+                     sensor.place);
+}
+
+std::string access_remedy(const UsbSensor& sensor) {
+  const std::string apply = "sudo udevadm control --reload && sudo udevadm trigger --subsystem-match=usb";
+  if (sensor.rule.empty())
+    return fmt::format(
+        "echo 'SUBSYSTEM==\"usb\", ATTR{{idVendor}}==\"{:04x}\", ATTR{{idProduct}}==\"{:04x}\", "
+        "MODE=\"0666\"' | "
+        "sudo tee -a /etc/udev/rules.d/61-saccade.rules && {}",
+        sensor.kind.vendor, sensor.product, apply);
+  if (sensor.mode.size() == 9 && sensor.mode.substr(3, 2) == "rw")
+    return fmt::format("sudo usermod -aG $(stat -c %G {}) $USER, then log in again", sensor.node.string());
+  return apply + ", then plug it in again";
+}
+
+void check_openni2(const Examination& found, std::vector<Problem>& problems) {
+  const std::string reinstall = "sudo apt-get install --reinstall libopenni2-0";
+  if (!found.openni2_error.empty()) problems.push_back({found.openni2_error, reinstall});
+  for (const char* name : kOwnModules)
+    if (found.openni2.module(name) == nullptr)
+      problems.push_back(
+          {fmt::format("our driver module {} is not in {}", name, found.openni2.driver_folder.string()),
+           "build or install Saccade anew: ./setup && cmake --build --preset release"});
+  for (const char* name : {"PS1080", "PSLink"})
+    if (found.openni2.module(name) == nullptr)
+      problems.push_back({fmt::format("the driver module {} of OpenNI2 is not in {}", name,
+                                      found.openni2.driver_folder.string()),
+                          reinstall});
+  for (const auto& module : found.openni2.modules)
+    if (!module.problem.empty())
+      problems.push_back(
+          {fmt::format("the driver module {} cannot be loaded: {}", module.name, module.problem),
+           fmt::format("ldd {}", module.path.string())});
+}
+
+void check_sensor(const UsbSensor& sensor, std::vector<Problem>& problems) {
+  const std::string name = title(sensor);
+  if (sensor.kind.part == Part::unsupported) {
+    problems.push_back({name + ": no driver module for it is here",
+                        "use its maker's OpenNI2 module: copy it to "
+                        "the driver folder"});
+    return;
+  }
+  if (sensor.access == Access::no_node)
+    problems.push_back({fmt::format("{}: there is no device file {}", name, sensor.node.string()),
+                        "sudo udevadm trigger --subsystem-match=usb, or hand /dev/bus/usb to the container"});
+  if (sensor.access == Access::denied)
+    problems.push_back(
+        {fmt::format(
+             "{}: no permission for {} ({}), {}", name, sensor.node.string(), sensor.mode,
+             sensor.rule.empty() ? "no udev rule names it" : "though " + sensor.rule.string() + " names it"),
+         access_remedy(sensor)});
+  if (sensor.access == Access::root_only)
+    problems.push_back(
+        {fmt::format(
+             "{}: only root has permission for {} ({}), {}", name, sensor.node.string(), sensor.mode,
+             sensor.rule.empty() ? "no udev rule names it" : "though " + sensor.rule.string() + " names it"),
+         access_remedy(sensor)});
+  if (sensor.speed_mbps > 0 && sensor.speed_mbps < kHighSpeed_mbps)
+    problems.push_back(
+        {fmt::format("{}: connected at {:g} Mb/s, too slow for images", name, sensor.speed_mbps),
+         "plug it into a USB 2.0 or 3.0 port without a hub; lsusb -t shows the speeds"});
+  if (sensor.kernel_driver.starts_with("gspca"))
+    problems.push_back(
+        {fmt::format("{}: the kernel's webcam driver {} has taken it", name, sensor.kernel_driver),
+         fmt::format("sudo modprobe -r {}", sensor.kernel_driver)});
+}
+
+bool has(const std::vector<UsbSensor>& sensors, Part part) {
+  return std::any_of(sensors.begin(), sensors.end(), [&](const auto& s) { return s.kind.part == part; });
+}
+
+}  // namespace
+
+std::vector<Problem> diagnose(const Examination& found) {
+  std::vector<Problem> problems;
+  check_openni2(found, problems);
+  for (const UsbSensor& sensor : found.usb) check_sensor(sensor, problems);
+  const bool camera = has(found.usb, Part::camera);
+  if (!camera && has(found.usb, Part::companion))
+    problems.push_back({"a Kinect is connected, but its camera is not there: it has no power",
+                        "connect the Kinect's own power supply"});
+  if (found.usb.empty() && found.devices.empty())
+    problems.push_back({"no USB device looks like a sensor", "plug it in, then look with lsusb"});
+  if (camera && found.devices.empty() && problems.empty())
+    problems.push_back({"OpenNI2 does not list the sensor that is connected",
+                        "end other programs that use it, plug it in again"});
+  return problems;
+}
+
+}  // namespace saccade

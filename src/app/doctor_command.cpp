@@ -1,0 +1,115 @@
+#include "app/doctor_command.hpp"
+
+#include <memory>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "app/doctor.hpp"
+#include "core/error.hpp"
+
+namespace saccade {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Examination examine(const std::string& sysfs) {
+  Examination found;
+  found.openni2 = find_openni2();
+  found.usb = find_usb_sensors(sysfs);
+  try {
+    found.devices = list_devices();
+  } catch (const Error& error) {
+    found.openni2_error = error.what();
+  }
+  return found;
+}
+
+const char* to_text(UsbSensor::Access access) {
+  switch (access) {
+    case UsbSensor::Access::granted:
+      return "granted";
+    case UsbSensor::Access::root_only:
+      return "root only";
+    case UsbSensor::Access::denied:
+      return "denied";
+    case UsbSensor::Access::no_node:
+      break;
+  }
+  return "no device file";
+}
+
+Json usb_json(const UsbSensor& sensor) {
+  return {{"name", sensor.kind.name},
+          {"usb_id", fmt::format("{:04x}:{:04x}", sensor.kind.vendor, sensor.product)},
+          {"port", sensor.place},
+          {"speed_mbps", sensor.speed_mbps},
+          {"node", sensor.node.string()},
+          {"mode", sensor.mode},
+          {"permission", to_text(sensor.access)},
+          {"udev_rule", sensor.rule.string()},
+          {"kernel_driver", sensor.kernel_driver},
+          {"module", sensor.kind.module}};
+}
+
+Json to_json(const Examination& found, const std::vector<Problem>& problems) {
+  Json modules = Json::array(), usb = Json::array(), devices = Json::array(), list = Json::array();
+  for (const auto& module : found.openni2.modules)
+    modules.push_back({{"name", module.name}, {"path", module.path.string()}, {"problem", module.problem}});
+  for (const UsbSensor& sensor : found.usb) usb.push_back(usb_json(sensor));
+  for (const DeviceListing& device : found.devices)
+    devices.push_back({{"name", device.identity.name},
+                       {"vendor", device.identity.vendor},
+                       {"source", device.source},
+                       {"driver", device.driver}});
+  for (const Problem& problem : problems)
+    list.push_back({{"problem", problem.what}, {"remedy", problem.remedy}});
+  return {{"ok", problems.empty()},
+          {"openni2",
+           {{"library", found.openni2.library.string()},
+            {"version", found.openni2.version},
+            {"driver_folder", found.openni2.driver_folder.string()},
+            {"modules", modules}}},
+          {"usb", usb},
+          {"devices", devices},
+          {"problems", list}};
+}
+
+void tell(const Examination& found, const std::vector<Problem>& problems) {
+  fmt::print("OpenNI2   {} ({})\n", found.openni2.version, found.openni2.library.string());
+  fmt::print("drivers   in {}\n", found.openni2.driver_folder.string());
+  for (const auto& module : found.openni2.modules)
+    fmt::print("          {}{}\n", module.name, module.problem.empty() ? "" : ": " + module.problem);
+  if (found.usb.empty()) fmt::print("USB       nothing that looks like a sensor\n");
+  for (const UsbSensor& sensor : found.usb)
+    fmt::print("USB       {} {:04x}:{:04x}, port {}, {:g} Mb/s, {} {}: {}; udev rule: {}\n", sensor.kind.name,
+               sensor.kind.vendor, sensor.product, sensor.place, sensor.speed_mbps, sensor.node.string(),
+               sensor.mode, to_text(sensor.access), sensor.rule.empty() ? "none" : sensor.rule.string());
+  for (const DeviceListing& device : found.devices)
+    fmt::print("sensor    {} {}: {}\n", device.identity.vendor, device.identity.name, device.source);
+  for (const Problem& problem : problems) fmt::print("PROBLEM   {} -> {}\n", problem.what, problem.remedy);
+  if (problems.empty()) fmt::print("all is well: saccade view openni2\n");
+}
+
+}  // namespace
+
+void doctor(const DoctorArguments& arguments) {
+  const Examination found = examine(arguments.sysfs);
+  const auto problems = diagnose(found);
+  if (arguments.json)
+    fmt::print("{}\n", to_json(found, problems).dump(2));
+  else
+    tell(found, problems);
+}
+
+void add_doctor_command(CLI::App& app, std::function<void()>& action) {
+  CLI::App& command =
+      *app.add_subcommand("doctor", "why a sensor is not found: library, drivers, udev rule, USB");
+  const auto arguments = std::make_shared<DoctorArguments>();
+  command.add_flag("--json", arguments->json, "in JSON on standard output");
+  command.add_option("--sysfs", arguments->sysfs, "where sysfs is, with dev and lib/udev beside it [/sys]")
+      ->type_name("DIR");
+  command.callback([arguments, &action] { action = [arguments] { doctor(*arguments); }; });
+}
+
+}  // namespace saccade

@@ -1,0 +1,189 @@
+// run and record on a live device, as a user meets it: slow processing, losses, Ctrl-C. The device is the
+// virtual one, through OpenNI2 and our driver module.
+#include <signal.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include "oni/check.hpp"
+#include "oni/recording.hpp"
+#include "subprocess.hpp"
+
+namespace saccade {
+namespace {
+
+using nlohmann::json;
+using ::testing::HasSubstr;
+
+class LiveTest : public ProgramTest {
+ protected:
+  // What the program will find as its sensor.
+  static void plug_in(const std::string& faults) {
+    const std::string device = "synthetic:table?size=160x120&noise=kinect&frames=5&scenes=5" + faults;
+    ::setenv("SACCADE_VIRTUAL_DEVICE", device.c_str(), 1);
+  }
+  ~LiveTest() override { ::unsetenv("SACCADE_VIRTUAL_DEVICE"); }
+
+  json manifest() const { return json::parse(text("out/manifest.json")); }
+
+  std::int64_t lines(const std::string& name) const {
+    const std::string all = text(name);
+    return std::count(all.begin(), all.end(), '\n');
+  }
+
+  // Everything is accounted for, and each result is in the files.
+  void expect_whole() const {
+    const json report = manifest(), ledger = report["ledger"];
+    const auto of = [&](const char* key) { return ledger[key].get<std::int64_t>(); };
+    EXPECT_EQ(of("captured"), of("processed") + of("dropped") + of("rejected"));
+    EXPECT_EQ(lines("out/fixations.jsonl"), of("processed"));
+    EXPECT_EQ(of("dropped"), report["dropped_by"]["newer_frame"].get<std::int64_t>() +
+                                 report["dropped_by"]["end"].get<std::int64_t>());
+  }
+};
+
+TEST_F(LiveTest, RunsSoManyFramesAsAskedAndTellsTheLatency) {
+  plug_in("");
+  const Outcome outcome = run_saccade({"run", "openni2", "--frames", "20", "--out", in("out"), "--json"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const json summary = json::parse(outcome.out);
+  EXPECT_EQ(summary["ledger"]["processed"], 20);
+  EXPECT_GT(summary["latency_ms"]["p50"], 0);
+  EXPECT_GE(summary["latency_ms"]["p99"], summary["latency_ms"]["p95"]);
+  EXPECT_EQ(summary["device"]["state"], "streaming");
+  EXPECT_EQ(manifest()["intrinsics"]["from"], "sensor");
+  EXPECT_EQ(manifest()["source"]["kind"], "openni2");
+  EXPECT_TRUE(std::filesystem::exists(in("out/000000_saliency.tiff")));
+  expect_whole();
+}
+
+TEST_F(LiveTest, SlowProcessingDropsFramesInsteadOfFallingBehind) {
+  plug_in("&rate=120");
+  const Outcome outcome =
+      run_saccade({"run", "openni2", "--frames", "15", "--out", in("out"), "--dump", "none", "--simd",
+                   "scalar", "--workers", "1", "--kernel", "41", "--json"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const json summary = json::parse(outcome.out);
+  EXPECT_GT(summary["dropped_by"]["newer_frame"], 0) << "the device is faster";
+  // Whatever the machine: one of 15 frames takes about 1/15 of the run, and a queue would fill a good part of
+  // it.
+  EXPECT_LT(summary["latency_ms"]["p95"].get<double>(), 1000 * summary["wall_s"].get<double>() / 3);
+  expect_whole();
+}
+
+TEST_F(LiveTest, ALostDeviceIsWaitedForAndCounted) {
+  for (const std::string loss : {"event", "state"}) {
+    plug_in("&loss_after=8&back_after_ms=50&loss=" + loss);
+    const Outcome outcome =
+        run_saccade({"run", "openni2", "--frames", "20", "--out", in("out"), "--dump", "none", "--json"});
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_THAT(outcome.err, HasSubstr("is lost")) << "it is told";
+    EXPECT_THAT(outcome.err, HasSubstr("streams again"));
+    const json device = json::parse(outcome.out)["device"];
+    EXPECT_GE(device["losses"], 2);
+    EXPECT_GT(device["away_s"], 0.05);
+    expect_whole();
+    std::filesystem::remove_all(in("out"));
+  }
+}
+
+TEST_F(LiveTest, ASilentDeviceIsNoticed) {
+  plug_in("&loss_after=5&loss=silent&back_after_ms=2300");
+  const Outcome outcome =
+      run_saccade({"run", "openni2", "--frames", "8", "--out", in("out"), "--dump", "none", "--json"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_THAT(outcome.err, HasSubstr("no depth for 2 s"));
+  EXPECT_EQ(json::parse(outcome.out)["device"]["losses"], 1);
+}
+
+TEST_F(LiveTest, WithoutReconnectLosingTheDeviceIsAnError) {
+  plug_in("&loss_after=8&loss=event&back_after_ms=50");
+  const Outcome outcome = run_saccade({"run", "openni2", "--mode", "160x120", "--frames", "20", "--out",
+                                       in("out"), "--dump", "none", "--no-reconnect"});
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_TRUE(outcome.one_error_line());
+  EXPECT_EQ(manifest()["status"], "failed");
+  expect_whole();
+}
+
+TEST_F(LiveTest, ADeviceMayComeLate) {
+  plug_in("&late_ms=300");
+  const Outcome outcome = run_saccade(
+      {"run", "openni2", "--mode", "160x120", "--frames", "3", "--out", in("out"), "--dump", "none"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(manifest()["intrinsics"]["from"], "sensor") << "though it was not known at the start";
+}
+
+TEST_F(LiveTest, NoDeviceIsOneLine) {
+  ::unsetenv("SACCADE_VIRTUAL_DEVICE");
+  for (const char* wait : {"0", "0.3"}) {
+    const Outcome outcome = run_saccade({"run", "openni2", "--wait", wait, "--out", in("out")});
+    EXPECT_EQ(outcome.status, 3);
+    EXPECT_TRUE(outcome.one_error_line());
+    EXPECT_THAT(outcome.err, HasSubstr("saccade doctor"));
+  }
+}
+
+TEST_F(LiveTest, ShortFramesAreRejectedAndNamed) {
+  plug_in("&short_frame=4");
+  const Outcome outcome =
+      run_saccade({"run", "openni2", "--frames", "12", "--out", in("out"), "--dump", "none"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const json report = manifest();
+  EXPECT_GE(report["ledger"]["rejected"], 3);
+  EXPECT_THAT(report["rejected"][0]["reason"].get<std::string>(), HasSubstr("19200 bytes, not 38400"));
+  expect_whole();
+}
+
+TEST_F(LiveTest, SettingsThatDoNothingAreTold) {
+  plug_in("&ignores_settings=1");
+  const Outcome outcome = run_saccade({"run", "openni2", "--mirror", "--exposure", "20", "--frames", "2",
+                                       "--out", in("out"), "--dump", "none"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  for (const char* setting : {"mirroring", "registration", "automatic exposure", "exposure was set to 20"})
+    EXPECT_THAT(outcome.err, HasSubstr(setting));
+  EXPECT_EQ(run_saccade({"run", "openni2", "--mode", "1x1@30", "--out", in("no")}).status, 2);
+}
+
+TEST_F(LiveTest, InterruptedAtAnyMomentItEndsSoonWithWholeFiles) {
+  plug_in("&loss_after=20&back_after_ms=120");
+  for (int k = 0; k < 12; ++k) {
+    std::filesystem::remove_all(in("out"));
+    const auto begin = std::chrono::steady_clock::now();
+    const int after_ms = 5 + 83 * k;
+    const Outcome outcome = run_saccade({"run", "openni2", "--out", in("out"), "--dump", "maps"}, after_ms,
+                                        in("out/manifest.json"), k % 2 ? SIGTERM : SIGINT);
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(20)) << "it does not hang";
+    EXPECT_EQ(manifest()["status"], "interrupted");
+    expect_whole();
+  }
+}
+
+TEST_F(LiveTest, RecordsEveryFrameAcrossALoss) {
+  plug_in("&loss_after=15&back_after_ms=100");
+  const Outcome outcome = run_saccade({"record", "openni2", in("a.oni"), "--frames", "30", "--json"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(json::parse(outcome.out)["frames"], 30);
+  EXPECT_EQ(json::parse(outcome.out)["dropped"], 0);
+  Recording recording{std::filesystem::path(in("a.oni"))};
+  EXPECT_TRUE(is_sound(check_recording(recording)));
+  const OniNode* depth = main_depth(recording);
+  ASSERT_NE(depth, nullptr);
+  ASSERT_EQ(depth->frames.size(), 30U);
+}
+
+TEST_F(LiveTest, RecordingEndsWithAWholeFileWhenTheDeviceIsGone) {
+  plug_in("&loss_after=10");
+  const Outcome outcome = run_saccade({"record", "openni2", in("a.oni"), "--no-reconnect"});
+  EXPECT_EQ(outcome.status, 1);
+  Recording recording{std::filesystem::path(in("a.oni"))};
+  EXPECT_TRUE(is_sound(check_recording(recording)));
+}
+
+}  // namespace
+}  // namespace saccade

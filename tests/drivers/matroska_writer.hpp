@@ -1,0 +1,20 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+#include <opencv2/core.hpp>
+
+namespace saccade {
+
+/// Writes packets as the one video track of a Matroska file, as ffmpeg does for a codec that Matroska has no
+/// name for: by its four letters. One packet a frame, every `period_ms`.
+void write_matroska(const std::filesystem::path& path, std::uint32_t fourcc, cv::Size size, int bits,
+                    int period_ms, const std::vector<std::vector<std::uint8_t>>& packets);
+
+/// The same for gray16le pixels, not compressed.
+void write_raw_matroska(const std::filesystem::path& path, cv::Size size, int period_ms,
+                        const std::vector<std::vector<std::uint8_t>>& packets);
+
+}  // namespace saccade

@@ -1,0 +1,252 @@
+// What reaches the disk, and in which order: the system calls that write are this program's own here. They do
+// what they are asked to and keep a log, from which every state is made that a killed program or a power cut
+// could leave behind.
+#include <fcntl.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+
+#include <condition_variable>
+#include <mutex>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "oni/check.hpp"
+#include "oni/recorder.hpp"
+#include "oni/recording.hpp"
+#include "oni/repair.hpp"
+#include "oni_fixtures.hpp"
+
+namespace {
+
+struct Operation {
+  enum class Kind { write, cut, sync, frame };
+  Kind kind;
+  std::uint64_t position = 0;       // of a write; the new size of a cut; the number of a frame
+  std::vector<std::uint8_t> bytes;  // of a write
+};
+
+// The log of all files; a test writes one at a time.
+struct Disk {
+  std::mutex mutex;
+  std::condition_variable changed;
+  std::vector<Operation> log;
+  bool held = false;  // syncs wait
+  int waiting = 0;    // syncs that do
+  void add(Operation operation) {
+    const std::lock_guard lock(mutex);
+    log.push_back(std::move(operation));
+  }
+};
+
+Disk& disk() {
+  static Disk disk;
+  return disk;
+}
+
+}  // namespace
+
+extern "C" ssize_t pwrite(int file, const void* bytes, size_t count, off_t position) {
+  const auto* begin = static_cast<const std::uint8_t*>(bytes);
+  const ssize_t written = ::syscall(SYS_pwrite64, file, bytes, count, position);
+  if (written > 0)
+    disk().add({Operation::Kind::write, static_cast<std::uint64_t>(position), {begin, begin + written}});
+  return written;
+}
+
+extern "C" int ftruncate(int file, off_t size) noexcept {
+  disk().add({Operation::Kind::cut, static_cast<std::uint64_t>(size), {}});
+  return static_cast<int>(::syscall(SYS_ftruncate, file, size));
+}
+
+extern "C" int fdatasync(int file) {
+  {
+    std::unique_lock lock(disk().mutex);
+    ++disk().waiting;
+    disk().changed.notify_all();
+    disk().changed.wait(lock, [] { return !disk().held; });
+    --disk().waiting;
+    disk().log.push_back({Operation::Kind::sync, 0, {}});
+  }
+  return static_cast<int>(::syscall(SYS_fdatasync, file));
+}
+
+namespace saccade {
+namespace {
+
+using Bytes = std::vector<std::uint8_t>;
+using Log = std::vector<Operation>;
+using Kind = Operation::Kind;
+
+const cv::Size kSize(16, 12);
+constexpr std::int64_t kFrames = 5;
+
+void apply(const Operation& operation, std::size_t count, Bytes& file) {
+  if (operation.kind == Kind::cut) file.resize(operation.position);
+  if (operation.kind != Kind::write) return;
+  file.resize(std::max<std::size_t>(file.size(), operation.position + count));
+  std::copy_n(operation.bytes.begin(), count, file.begin() + static_cast<std::ptrdiff_t>(operation.position));
+}
+
+class WriteOrder : public OniFiles {
+ protected:
+  void SetUp() override {
+    OniFiles::SetUp();
+    for (int k = 0; k < kFrames; ++k) frames_.push_back(test_frame(k, kSize, true).depth_mm);
+  }
+
+  // The calls of a recorder that is pushed kFrames; a mark follows each frame's last write.
+  Log record() {
+    disk().log.clear();
+    OniWriter writer(path("log.oni"), {.overwrite = true});
+    for (int k = 0; k < kFrames; ++k) {
+      writer.write(test_frame(k, kSize, true));
+      disk().add({Kind::frame, static_cast<std::uint64_t>(k), {}});
+      writer.sync();
+    }
+    writer.close();
+    return disk().log;
+  }
+
+  // The first `count` depth frames are there, bit for bit, and after them at most the one that was being
+  // written. Only if that is `torn` may it differ: the format has no checksums, so what lacks some bytes may
+  // still decode.
+  void expect_frames(const Bytes& bytes, std::int64_t count, bool torn, const std::string& where) {
+    write_bytes(path("cut.oni"), bytes);
+    Recording recording(path("cut.oni"));
+    const OniNode* node = main_depth(recording);
+    std::int64_t found = 0;
+    cv::Mat1f depth;
+    for (std::size_t k = 0; node != nullptr && k < node->frames.size(); ++k) {
+      if (!recording.read_depth(*node, k, depth).empty()) continue;
+      ASSERT_LT(found, std::min(count + 1, kFrames)) << where;
+      const bool same = equal(depth, frames_[static_cast<std::size_t>(found)]);
+      ASSERT_TRUE(same || (torn && found == count)) << where << ", frame " << found;
+      ++found;
+    }
+    ASSERT_GE(found, count) << where;
+  }
+
+  std::vector<cv::Mat1f> frames_;
+};
+
+TEST_F(WriteOrder, KilledAtAnyByteOfAnyWriteAllFramesBeforeAreThere) {
+  const Log log = record();
+  Bytes file;
+  std::int64_t frames = 0;
+  for (const Operation& operation : log) {
+    if (operation.kind == Kind::frame) ++frames;
+    for (std::size_t count = 1; count < operation.bytes.size(); ++count) {
+      // Every byte of what changes the file in place, and of the headers of records.
+      if (operation.position >= file.size() && count > 40 && count % 61 != 0) continue;
+      Bytes cut = file;
+      apply(operation, count, cut);
+      if (cut.size() < kOniHeaderSize) continue;
+      expect_frames(
+          cut, frames, false,
+          "after " + std::to_string(count) + " bytes of a write at " + std::to_string(operation.position));
+      if (HasFatalFailure()) return;
+    }
+    apply(operation, operation.bytes.size(), file);
+  }
+  EXPECT_EQ(file, read_bytes(path("log.oni"))) << "the log is all that was written";
+  EXPECT_EQ(frames, kFrames);
+}
+
+TEST_F(WriteOrder, APowerCutTakesAtMostTheFrameBeingWritten) {
+  const Log log = record();
+  std::mt19937 random(7);
+  Bytes safe;  // what is on the disk for certain
+  std::size_t first_unsafe = 0;
+  std::int64_t safe_frames = 0, frames = 0;
+  for (std::size_t k = 0; k < log.size(); ++k) {
+    if (log[k].kind == Kind::frame) ++frames;
+    ASSERT_LE(frames - safe_frames, 1) << "a frame is written before the last one is on the disk";
+    // Of the calls since the last sync, any may have reached the disk in part, in any order, others not.
+    for (int round = 0; round < 12 && safe.size() >= kOniHeaderSize; ++round) {
+      Bytes file = safe;
+      for (std::size_t i = first_unsafe; i <= k; ++i) {
+        const std::size_t whole = log[i].bytes.size();
+        const bool cut = random() % 2 == 0 && whole > 0;
+        if (random() % 4 == 0) {
+          // The size has grown and the bytes are not there.
+          file.resize(std::max<std::size_t>(file.size(), whole == 0 ? 0 : log[i].position + whole));
+          continue;
+        }
+        apply(log[i], cut ? random() % whole : whole, file);
+      }
+      expect_frames(file, safe_frames, true, "after call " + std::to_string(k));
+      if (HasFatalFailure()) return;
+    }
+    if (log[k].kind != Kind::sync) continue;
+    for (; first_unsafe <= k; ++first_unsafe) apply(log[first_unsafe], log[first_unsafe].bytes.size(), safe);
+    safe_frames = frames;
+  }
+  EXPECT_EQ(safe, read_bytes(path("log.oni"))) << "the closed file is on the disk";
+}
+
+TEST_F(WriteOrder, CountsAndTablesAreNamedOnlyWhenTheyAreOnTheDisk) {
+  const Log log = record();
+  std::uint64_t end = 0;  // of the file so far
+  bool synced = true;
+  int overwrites = 0;
+  for (const Operation& operation : log) {
+    if (operation.kind == Kind::sync) synced = true;
+    if (operation.kind != Kind::write) continue;
+    if (operation.position < end) {
+      ++overwrites;
+      EXPECT_TRUE(synced || overwrites > 1) << "an earlier part is written over before the end is safe";
+    } else {
+      synced = false;
+    }
+    end = std::max(end, operation.position + operation.bytes.size());
+  }
+  EXPECT_EQ(overwrites, 3) << "two nodes and the header";
+}
+
+TEST_F(WriteOrder, ASlowDiskGetsTheFramesThatCameMeanwhileAtOnceAndNoneIsDropped) {
+  disk().log.clear();
+  OniWriter writer(path("slow.oni"), {});
+  OniRecorder recorder(writer, 30);
+  {
+    const std::lock_guard lock(disk().mutex);
+    disk().held = true;
+  }
+  for (int k = 0; k < 2; ++k) ASSERT_TRUE(recorder.offer(test_frame(k, kSize, true)));
+  {
+    std::unique_lock lock(disk().mutex);
+    ASSERT_TRUE(disk().changed.wait_for(lock, std::chrono::minutes(1), [] { return disk().waiting == 1; }));
+  }
+  for (int k = 2; k < 12; ++k) ASSERT_TRUE(recorder.offer(test_frame(k, kSize, true)));
+  {
+    const std::lock_guard lock(disk().mutex);
+    disk().held = false;
+    disk().changed.notify_all();
+  }
+  recorder.finish();
+  EXPECT_EQ(recorder.counts().frames, 12u);
+  EXPECT_EQ(recorder.counts().dropped, 0u);
+  EXPECT_GT(recorder.counts().most_unsynced, 1u) << "it is told that more than one frame was at stake";
+  EXPECT_EQ(recorder.counts().unsynced, 0u);
+  Recording recording(path("slow.oni"));
+  EXPECT_TRUE(is_sound(check_recording(recording)));
+}
+
+TEST_F(WriteOrder, AFrameOfASourceThatWaitsIsOnTheDiskBeforeTheNextIsWritten) {
+  disk().log.clear();
+  OniWriter writer(path("push.oni"), {.colour_codec = OniColourCodec::off});
+  OniRecorder recorder(writer, 2);
+  for (int k = 0; k < 20; ++k) recorder.push(test_frame(k, kSize, false));
+  recorder.finish();
+  EXPECT_EQ(recorder.counts().most_unsynced, 1u);
+  int writes = 0, syncs = 0;
+  for (const Operation& operation : disk().log) {
+    if (operation.kind == Kind::write) ++writes;
+    if (operation.kind == Kind::sync) ++syncs;
+    EXPECT_LE(writes - syncs, 3) << "three at the end: closing records, one node, the header";
+  }
+  EXPECT_GE(syncs, 20);
+}
+
+}  // namespace
+}  // namespace saccade

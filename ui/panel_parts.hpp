@@ -1,0 +1,37 @@
+#pragma once
+
+#include <string>
+
+#include <imgui.h>
+
+namespace saccade {
+
+/// What a colour of the panels means.
+enum class Tone { plain, quiet, good, warning, bad };
+
+/// Readable on the background of the present style, dark or light.
+ImVec4 tone_colour(Tone tone);
+
+/// Distinct colours for things in a row (pyramid levels, stages of the computation), the same in every panel.
+ImU32 series_colour(int index);
+
+/// Text without format marks, wrapped at the window's right side.
+void wrapped_text(const std::string& text, Tone tone = Tone::plain);
+
+/// A cell of a table, right-aligned, for numbers.
+void number_cell(const std::string& text, Tone tone = Tone::plain);
+
+/// A row of a table of two columns: a quiet label and its value.
+void labelled_row(const char* label, const std::string& value, Tone tone = Tone::plain);
+
+/// Begins a table of labelled_row()s whose labels are as wide as `widest_label`; true if rows are to follow,
+/// which ImGui::EndTable() ends.
+bool begin_labelled_rows(const char* id, const char* widest_label);
+
+/// A small square in a colour, as high as the text; the next item follows on the same line.
+void swatch(ImU32 colour);
+
+/// Explains the last item when the pointer rests on it.
+void explain(const char* text);
+
+}  // namespace saccade

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <chrono>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "pipeline/frame_source.hpp"
+#include "pipeline/sensor_controls.hpp"
+#include "ui/device_watch.hpp"
+#include "ui/panel_parts.hpp"
+#include "ui/recording_session.hpp"
+
+namespace saccade {
+
+/// The source that is open, and how it does.
+struct SourceFacts {
+  bool open = false;  ///< false: nothing is, or it is being opened
+  std::string uri{};
+  bool live = false;
+  bool paused = false;
+  double rate_hz = 0;  ///< frames that came of late, a second
+  SourceState connection{};
+  std::string error{};  ///< what ended it; empty = nothing did
+};
+
+/// What the panel tells.
+struct SensorFacts {
+  SourceFacts source;
+  std::optional<std::vector<DeviceChoice>> devices;  ///< none = not looked for yet
+  std::string devices_error;                         ///< why they cannot be listed; empty = they can
+  std::vector<std::string> modes;                    ///< of the sensor that is open, as 640x480@30
+  std::string mode;                                  ///< the one that is used
+  SensorValues values;                               ///< of the sensor; all empty = it has no controls
+  RecordingStatus recording;
+  std::string snapshot;  ///< where the last one went, or that it is being written; empty = there was none
+  std::string snapshot_error;
+};
+
+/// What a person asked for by the panel's buttons.
+struct SensorActions {
+  std::optional<std::string> open{};      ///< a source
+  std::optional<std::string> mode{};      ///< one of the modes
+  std::optional<SensorValues> request{};  ///< only what was changed
+  bool toggle_recording = false;
+  bool snapshot = false;
+};
+
+/// The state in a few words that can be read from across the room, and what they mean.
+struct Headline {
+  std::string text;
+  Tone tone = Tone::plain;
+};
+Headline headline(const SourceFacts& source, std::chrono::steady_clock::time_point now);
+
+/// The recording in one line: time, size, free space, drops; empty if there was none.
+Headline recording_line(const RecordingStatus& recording);
+
+/// The panel. Within an ImGui window, on the thread that draws.
+SensorActions draw_sensor_panel(const SensorFacts& facts, std::chrono::steady_clock::time_point now);
+
+}  // namespace saccade
