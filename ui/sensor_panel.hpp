@@ -7,6 +7,7 @@
 
 #include "pipeline/frame_source.hpp"
 #include "pipeline/sensor_controls.hpp"
+#include "ui/device_watch.hpp"
 #include "ui/panel_parts.hpp"
 #include "ui/recording_session.hpp"
 
@@ -21,13 +22,6 @@ struct SourceFacts {
   double rate_hz = 0;  ///< frames that came of late, a second
   SourceState connection{};
   std::string error{};  ///< what ended it; empty = nothing did
-};
-
-/// A sensor that is connected.
-struct DeviceChoice {
-  std::string name;    ///< for people
-  std::string source;  ///< what opens it
-  std::string detail;  ///< vendor, driver; or why it cannot be opened
 };
 
 /// What the panel tells.

@@ -64,6 +64,16 @@ SessionState Session::state() const {
   return state;
 }
 
+SensorValues Session::sensor_values() const {
+  const std::lock_guard lock(mutex_);
+  return controls_ == nullptr ? SensorValues{} : controls_->values();
+}
+
+void Session::request_sensor(const SensorValues& wanted) {
+  const std::lock_guard lock(mutex_);
+  if (controls_ != nullptr) controls_->request(wanted);
+}
+
 ViewResultPtr Session::latest() const {
   const std::lock_guard lock(mutex_);
   return latest_;
@@ -98,8 +108,9 @@ void Session::work(const std::stop_token& token) {
 }
 
 void Session::run(const OpenRequest& request) {
-  std::unique_ptr<FrameSource> source = open_(request.uri);
+  std::unique_ptr<FrameSource> source = open_(request.uri, request.sensor);
   const SourceInfo info = source->info();
+  SensorControls* const controls = source->controls();
   PipelineOptions options;
   options.policy = FramePolicy::newest;
   options.slots = kSlots;
@@ -125,6 +136,7 @@ void Session::run(const OpenRequest& request) {
                     std::move(processor), std::move(options));
   pipeline_ = &pipeline;
   processor_ = tunable;
+  controls_ = controls;
   lock.unlock();
   wake_();
 
@@ -138,6 +150,7 @@ void Session::run(const OpenRequest& request) {
   if (!request_) state_.ledger = pipeline.ledger();
   pipeline_ = nullptr;
   processor_ = nullptr;
+  controls_ = nullptr;
   lock.unlock();
   if (error) std::rethrow_exception(error);
 }

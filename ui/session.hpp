@@ -20,8 +20,9 @@ namespace saccade {
 /// What to open and which of its frames to play.
 struct OpenRequest {
   std::string uri;
-  PlayRange range;
-  std::optional<Intrinsics> intrinsics;
+  PlayRange range{};
+  std::optional<Intrinsics> intrinsics{};
+  SensorSettings sensor{};  ///< of live sensors
 };
 
 /// How a session is doing.
@@ -58,7 +59,7 @@ struct FrameRecord {
 /// return at once, the destructor excepted, which waits for what is being opened or computed.
 class Session {
  public:
-  using Open = std::function<std::unique_ptr<FrameSource>(const std::string& uri)>;
+  using Open = std::function<std::unique_ptr<FrameSource>(const std::string& uri, const SensorSettings&)>;
 
   /// `wake` is called on any thread whenever there is something new to see.
   Session(Open open, std::function<void()> wake, Wishes wishes);
@@ -77,6 +78,11 @@ class Session {
   const Playback& playback() const { return *playback_; }
 
   SessionState state() const;
+
+  /// The controls of the sensor that is open: see SensorControls. All empty, and without effect, where there
+  /// is none.
+  SensorValues sensor_values() const;
+  void request_sensor(const SensorValues& wanted);
 
   /// The newest result of the source that is open; null = none yet.
   ViewResultPtr latest() const;
@@ -103,6 +109,7 @@ class Session {
   std::int64_t generation_ = 0, serial_ = 0;
   Pipeline* pipeline_ = nullptr;
   TunableProcessor* processor_ = nullptr;
+  SensorControls* controls_ = nullptr;  // of the open source; null = it has none
   bool stopping_ = false;
   SessionState state_;
   ViewResultPtr latest_;

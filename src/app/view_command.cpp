@@ -69,8 +69,10 @@ void view(const ViewArguments& arguments, const SettingsOptions& options) {
   set_log_level(settings);
 
   ViewerOptions viewer_options;
-  viewer_options.source = {
-      arguments.source, {settings.start, settings.every, settings.frames}, settings.intrinsics};
+  viewer_options.source = {arguments.source,
+                           {settings.start, settings.every, settings.frames},
+                           settings.intrinsics,
+                           settings.sensor};
   if (arguments.source.empty())
     viewer_options.source.uri = find_bundled_recording(fs::read_symlink("/proc/self/exe")).string();
   if (!arguments.size.empty()) viewer_options.size = parse_size(arguments.size);

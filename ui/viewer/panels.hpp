@@ -2,6 +2,8 @@
 
 #include <memory>
 
+#include "ui/viewer/probe_section.hpp"
+#include "ui/viewer/sensor_section.hpp"
 #include "ui/viewer/view_context.hpp"
 
 namespace saccade {
@@ -14,10 +16,22 @@ void draw_tuning_panel(ViewContext& view);
 void draw_look_panel(ViewContext& view);
 void draw_transport(ViewContext& view);
 void draw_errors(ViewContext& view);
-void draw_sidebar(ViewContext& view);
+void draw_performance_section(ViewContext& view);
 
 /// Windows over the others; `open` is what makes them appear and is cleared when they are put away.
 void draw_help(ViewContext& view, bool& open);
+
+/// The side bar with its sections.
+class Sidebar {
+ public:
+  void draw(ViewContext& view);
+  SensorSection& sensors() { return sensors_; }
+
+ private:
+  void draw_section(ViewContext& view, Section section);
+  ProbeSection probe_;
+  SensorSection sensors_;
+};
 
 /// What to open: a path, a recent source, a folder to look through.
 class OpenDialog {

@@ -233,9 +233,9 @@ void PicturePanel::draw_side(ViewContext& view, const Place& place) {
   l.background.set_sharp(l.view.scale() >= kSharpFrom);
   draw.AddImage(l.background.id(), low, high);
   if (view.state.show_map) draw.AddImage((place.is_b ? l.b : l.a).texture.id(), low, high);
-  for (const PictureBox& box : view.boxes)
-    draw.AddRect(on_screen(box.box.tl() + cv::Point2d(0.5, 0.5)),
-                 on_screen(box.box.br() + cv::Point2d(0.5, 0.5)), as_u32(box.colour), 0, 0, view.px(1.5));
+  if (view.over_picture)
+    view.over_picture(
+        draw, {on_screen({0, 0}), place.clip_low, place.clip_high, static_cast<float>(l.view.scale())});
   draw_shapes(draw, overlay_shapes(computed, view.state.style, l.view, view.unit), place.corner);
 
   const float pad = view.px(8);

@@ -9,6 +9,7 @@
 #include <opencv2/core.hpp>
 
 #include "ui/overlay_shapes.hpp"
+#include "ui/probe_panel.hpp"
 #include "ui/session.hpp"
 #include "ui/shortcuts.hpp"
 #include "ui/stage_history.hpp"
@@ -19,13 +20,6 @@
 struct ImFont;
 
 namespace saccade {
-
-/// A rectangle that a panel wants to see over the picture, in pixels of the frame; (0,0) is the centre of the
-/// top-left pixel.
-struct PictureBox {
-  cv::Rect2d box;
-  Rgba colour;
-};
 
 /// What a panel may see and touch while a frame of the window is drawn; all on the window's thread. Panels
 /// change `state`; the viewer tells the session what that means for the computation.
@@ -43,13 +37,16 @@ struct ViewContext {
   StageHistory history;
   SaliencyWants wants;  ///< by-products that a panel needs; cleared before each frame
 
+  double busy_ms = 0, longest_ms = 0;  ///< what the window's last frame took to draw; the longest of all
+
   double unit = 1;  ///< pixels of ImGui for one of a screen of usual density
   ImFont* bold = nullptr;
   const ThemeColours* colours = nullptr;
 
   std::optional<cv::Point> pointer;  ///< pixel of the frame under the mouse
   bool pointer_on_b = false;         ///< it is over B's picture
-  std::vector<PictureBox> boxes;     ///< drawn over the picture with the next frame of the window
+  /// Draws over the picture with the next frame of the window; may be empty.
+  std::function<void(ImDrawList&, const PicturePlace&)> over_picture;
 
   std::vector<std::string> errors;  ///< to be shown until they are put away; one line each
   std::string notice;               ///< a short "done" line; goes by itself

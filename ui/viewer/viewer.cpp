@@ -67,7 +67,8 @@ void Viewer::run() {
     draw_frame();
     const double busy_ms = std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
     ++frames_;
-    longest_ms_ = std::max(longest_ms_, busy_ms);
+    view_.busy_ms = busy_ms;
+    view_.longest_ms = std::max(view_.longest_ms, busy_ms);
     log_frame(busy_ms);
   }
   state_.window = window_.size();
@@ -171,7 +172,7 @@ void Viewer::draw_window() {
   ImGui::EndChild();
   if (state_.sidebar) {
     ImGui::SameLine();
-    part("sidebar", {0, height}, [&] { draw_sidebar(view_); });
+    part("sidebar", {0, height}, [&] { sidebar_.draw(view_); });
   }
   ImGui::PopStyleVar(2);
   draw_notice();
@@ -188,8 +189,7 @@ void Viewer::draw_body(float height) {
   const float errors = ImGui::GetCursorPosY() - before;
   ImGui::BeginChild("centre", {0, std::max(1.0F, height - transport - errors - view_.px(1))}, false,
                     ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse);
-  picture_.draw(view_);
-  view_.boxes.clear();
+  draw_centre();
   ImGui::EndChild();
   ImGui::Dummy({0, view_.px(1)});
   ImGui::PushStyleColor(ImGuiCol_ChildBg, as_vec4(view_.colours->panel));
@@ -202,6 +202,28 @@ void Viewer::draw_body(float height) {
   ImGui::EndChild();
   ImGui::PopStyleVar();
   ImGui::PopStyleColor();
+}
+
+void Viewer::draw_centre() {
+  const bool both = state_.centre == Centre::both;
+  const ImVec2 room = ImGui::GetContentRegionAvail();
+  if (state_.centre == Centre::cloud) view_.pointer.reset();
+  if (state_.centre != Centre::cloud) {
+    ImGui::BeginChild("picture", {both ? room.x / 2 - view_.px(1) : 0, 0}, false,
+                      ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse);
+    picture_.draw(view_);
+    ImGui::EndChild();
+  }
+  view_.over_picture = nullptr;  // the side bar, which is drawn later, says it anew
+  if (both) ImGui::SameLine(0, view_.px(2));
+  if (state_.centre != Centre::picture) {
+    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {view_.px(8), view_.px(7)});
+    ImGui::BeginChild("cloud", {0, 0}, false,
+                      ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse);
+    cloud_.draw(view_);
+    ImGui::EndChild();
+    ImGui::PopStyleVar();
+  }
 }
 
 void Viewer::draw_notice() {
@@ -234,7 +256,7 @@ void Viewer::send_wishes() {
 }
 
 void Viewer::open(const std::string& uri) {
-  OpenRequest request{uri, {}, options_.source.intrinsics};
+  OpenRequest request{uri, {}, options_.source.intrinsics, state_.tuning.a.sensor};
   if (uri == options_.source.uri) request.range = options_.source.range;
   session_.open(request);
   view_.result.reset();
@@ -245,6 +267,7 @@ void Viewer::open(const std::string& uri) {
   if (!uri.empty()) remember_source(state_, uri);
   window_.set_title("Saccade: " + uri);
   picture_.fit();
+  cloud_.fit();
   frames_due_ = kFramesAfterEvent;
 }
 
@@ -265,7 +288,7 @@ void Viewer::log_frame(double busy_ms) {
   nlohmann::ordered_json line = {
       {"t_ms", std::chrono::duration<double, std::milli>(Clock::now().time_since_epoch()).count()},
       {"busy_ms", busy_ms},
-      {"longest_ms", longest_ms_},
+      {"longest_ms", view_.longest_ms},
       {"frames", frames_},
       {"source", view_.source.uri},
       {"phase", static_cast<int>(view_.source.phase)},

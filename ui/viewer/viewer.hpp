@@ -8,6 +8,7 @@
 #include <string>
 
 #include "core/file.hpp"
+#include "ui/viewer/cloud_view.hpp"
 #include "ui/viewer/panels.hpp"
 #include "ui/viewer/view_context.hpp"
 #include "ui/viewer/window.hpp"
@@ -47,6 +48,7 @@ class Viewer {
   void draw_frame();
   void draw_window();
   void draw_body(float height);
+  void draw_centre();
   void draw_notice();
   void handle_keys();
   void act(Action action);
@@ -69,6 +71,8 @@ class Viewer {
   ViewContext view_;
   SettingsHistory history_;
   PicturePanel picture_;
+  CloudView cloud_;
+  Sidebar sidebar_;
   OpenDialog open_dialog_;
   SettingsDialog settings_dialog_;
   bool help_ = false;
@@ -81,7 +85,6 @@ class Viewer {
   std::string told_error_;
   std::optional<LineFile> log_;
   std::int64_t frames_ = 0;
-  double longest_ms_ = 0;
   int shot_countdown_ = 3;  // frames for the layout to settle
 };
 

@@ -1,0 +1,140 @@
+// The viewer as a person uses it.
+#include <algorithm>
+#include <chrono>
+#include <thread>
+
+#include <opencv2/imgproc.hpp>
+
+#include "core/file.hpp"
+#include "core/png.hpp"
+#include "drivers/oni_source.hpp"
+#include "ui/overlay.hpp"
+#include "x_program.hpp"
+
+namespace saccade {
+namespace {
+
+using Json = nlohmann::json;
+
+const std::string kTable = std::string(SACCADE_SOURCE_DIR) + "/recordings/table.oni";
+
+class ViewerTest : public XProgramTest {
+ protected:
+  // The picture's part of a screenshot, without the bars beside it.
+  cv::Mat3b picture_of(const cv::Mat3b& shot) const {
+    const Json box = now()["places"]["picture"];
+    const cv::Rect area(cv::Point(box[0].get<int>(), box[1].get<int>()),
+                        cv::Point(box[2].get<int>(), box[3].get<int>()));
+    const double scale = std::min(area.width / 640.0, area.height / 480.0);
+    const cv::Size size(cvRound(640 * scale), cvRound(480 * scale));
+    return shot(cv::Rect(area.x + (area.width - size.width) / 2, area.y + (area.height - size.height) / 2,
+                         size.width, size.height) &
+                cv::Rect({}, shot.size()));
+  }
+
+  static double likeness(const cv::Mat3b& a, const cv::Mat3b& b) {
+    cv::Mat1b grey_a, grey_b;
+    cv::cvtColor(a, grey_a, cv::COLOR_BGR2GRAY);
+    cv::cvtColor(b, grey_b, cv::COLOR_BGR2GRAY);
+    cv::resize(grey_a, grey_a, {160, 120}, 0, 0, cv::INTER_AREA);
+    cv::resize(grey_b, grey_b, {160, 120}, 0, 0, cv::INTER_AREA);
+    cv::Mat1f result;
+    cv::matchTemplate(grey_a, grey_b, result, cv::TM_CCOEFF_NORMED);
+    return static_cast<double>(result(0));
+  }
+};
+
+TEST_F(ViewerTest, TheScreenshotShowsTheFrameAtAnyScale) {
+  OniSource source(kTable);
+  source.seek(5);
+  Frame frame;
+  source.read(frame, std::chrono::milliseconds(0));
+  for (const char* scale : {"1", "2"}) {
+    ASSERT_EQ(run({kTable, "--start", "5", "--frames", "1", "--size", "1280x800", "--ui-scale", scale,
+                   "--screenshot", in("shot.png")}),
+              0);
+    const cv::Mat3b shot = decode_png(read_file(in("shot.png")));
+    ASSERT_EQ(shot.size(), cv::Size(1280, 800));
+    EXPECT_GT(likeness(picture_of(shot), frame.colour), 0.75);
+    EXPECT_EQ(now()["shown"]["index"], 5);
+    EXPECT_EQ(now()["shown"]["fixations"], 10);
+  }
+}
+
+TEST_F(ViewerTest, PlaysTunesComparesAndQuits) {
+  start({"--size", "1280x800"});  // without SOURCE: the bundled recording
+  EXPECT_EQ(now()["source"], std::filesystem::canonical(kTable).string());
+  EXPECT_TRUE(until([](const Json& j) { return j["position"] > 1; })) << "it plays";
+  hand("key space");
+  ASSERT_TRUE(until([](const Json& j) { return j["paused"] == true; }));
+
+  click("timeline", 0.6);  // of 16 frames: frame 9
+  EXPECT_TRUE(until([](const Json& j) { return j["shown"]["index"] == 9; }));
+  hand("key Right");
+  EXPECT_TRUE(until([](const Json& j) { return j["shown"]["index"] == 10; }));
+  hand("key Left");
+  hand("key Left");
+  EXPECT_TRUE(until([](const Json& j) { return j["shown"]["index"] == 8; }));
+
+  hand("key bracketright");
+  EXPECT_TRUE(until([](const Json& j) { return j["shown"]["kernel"] == 17 && j["shown"]["index"] == 8; }));
+  drag("kernel", 0.15, 0.6);
+  EXPECT_TRUE(until([](const Json& j) { return j["kernel"] > 60 && j["shown"]["kernel"] == j["kernel"]; }));
+  hand("key ctrl+z");
+  EXPECT_TRUE(until([](const Json& j) { return j["shown"]["kernel"] == 17; })) << "the drag was one step";
+  hand("key ctrl+shift+z");
+  EXPECT_TRUE(until([](const Json& j) { return j["shown"]["kernel"] > 60; }));
+  hand("key m");
+  EXPECT_TRUE(until([](const Json& j) { return j["shown"]["model"] == "combined"; }));
+
+  hand("key c");
+  EXPECT_TRUE(until([](const Json& j) { return j["comparison"] == 1 && j["shown"]["compared"] == true; }));
+  hand("key c");
+  EXPECT_TRUE(until([](const Json& j) { return j["comparison"] == 2 && j["places"].contains("divider"); }));
+  hand("search --onlyvisible --class saccade windowsize 1000 700");
+  EXPECT_TRUE(until([](const Json& j) { return j["window"] == Json{1000, 700}; }));
+  drag("picture", 0.5, 0.25);
+  EXPECT_TRUE(until([](const Json& j) { return j["divider"] < 0.3; }));
+
+  hand("key ctrl+q");
+  EXPECT_EQ(wait_for_exit(), 0);
+  start({});
+  EXPECT_EQ(now()["model"], "combined") << "what was set is there again";
+  EXPECT_EQ(now()["comparison"], 2);
+}
+
+TEST_F(ViewerTest, AnErrorLeavesTheWindowAlive) {
+  start({kTable});
+  ASSERT_TRUE(until([](const Json& j) { return j["errors"].empty(); }));
+  hand("key ctrl+o sleep 1 key ctrl+a type --delay 60 /no/such.oni");
+  hand("key Return");
+  ASSERT_TRUE(until([](const Json& j) { return j["errors"].size() == 1; }));
+  EXPECT_NE(now()["errors"][0].get<std::string>().find("no such source"), std::string::npos);
+  hand("key ctrl+o sleep 1 key ctrl+a type --delay 60 synthetic:sphere");
+  hand("key Return");
+  EXPECT_TRUE(until([](const Json& j) { return j["errors"].empty() && j.contains("shown"); }));
+}
+
+TEST_F(ViewerTest, IdleItDrawsNothing) {
+  start({kTable, "--paused"});
+  // From one moment on the log does not grow, however long the machine takes to get there.
+  const auto frames = [this] { return now()["frames"].get<std::int64_t>(); };
+  bool still = false;
+  for (int i = 0; i < 60 && !still; ++i) {
+    const std::int64_t before = frames();
+    std::this_thread::sleep_for(std::chrono::seconds(1));
+    still = frames() == before;
+  }
+  EXPECT_TRUE(still);
+}
+
+TEST_F(ViewerTest, WithoutADisplayItSaysSoInOneLine) {
+  EXPECT_EQ(run({kTable}, false), 1);
+  const auto bytes = read_file(in("err"));
+  const std::string err(bytes.begin(), bytes.end());
+  EXPECT_EQ(std::count(err.begin(), err.end(), '\n'), 1) << err;
+  EXPECT_NE(err.find("no display"), std::string::npos) << err;
+}
+
+}  // namespace
+}  // namespace saccade

@@ -1,0 +1,148 @@
+#include "x_program.hpp"
+
+#include <fcntl.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <thread>
+#include <utility>
+
+namespace saccade {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr auto kPatience = std::chrono::seconds(60);
+
+bool is_installed(const char* program) {
+  return std::system((std::string("command -v ") + program + " >/dev/null").c_str()) == 0;
+}
+
+int exit_status(pid_t child) {
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+}
+
+}  // namespace
+
+void XProgramTest::SetUp() {
+  for (const char* program : {"Xvfb", "xdotool"})
+    if (!is_installed(program)) GTEST_SKIP() << program << " is not installed";
+  std::array<int, 2> ends{};
+  ASSERT_EQ(::pipe(ends.data()), 0);
+  server_ = ::fork();
+  if (server_ == 0) {
+    ::dup2(ends[1], 3);
+    const int null = ::open("/dev/null", O_WRONLY);
+    ::dup2(null, STDERR_FILENO);
+    ::execlp("Xvfb", "Xvfb", "-displayfd", "3", "-screen", "0", "1920x1200x24", nullptr);
+    ::_exit(127);
+  }
+  ::close(ends[1]);
+  char c = 0;  // the server writes its number when it is ready
+  while (::read(ends[0], &c, 1) == 1 && c != '\n') display_ += c;
+  ::close(ends[0]);
+  ASSERT_FALSE(display_.empty()) << "Xvfb did not start";
+  display_ = ":" + display_;
+}
+
+XProgramTest::~XProgramTest() {
+  for (const pid_t child : {program_, server_})
+    if (child > 0) {
+      ::kill(child, SIGTERM);
+      exit_status(child);
+    }
+}
+
+pid_t XProgramTest::spawn(const std::vector<std::string>& words, bool display) const {
+  const pid_t child = ::fork();
+  if (child != 0) return child;
+  if (display)
+    ::setenv("DISPLAY", display_.c_str(), 1);
+  else
+    ::unsetenv("DISPLAY");
+  ::unsetenv("WAYLAND_DISPLAY");
+  ::setenv("LIBGL_ALWAYS_SOFTWARE", "1", 1);
+  ::setenv("XDG_CONFIG_HOME", folder_.c_str(), 1);
+  std::vector<char*> argv;
+  for (const std::string& word : words) argv.push_back(const_cast<char*>(word.c_str()));
+  argv.push_back(nullptr);
+  const int err = ::open((folder_ / "err").c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+  ::dup2(err, STDERR_FILENO);
+  ::execvp(argv[0], argv.data());
+  ::_exit(127);
+}
+
+int XProgramTest::run(const std::vector<std::string>& arguments, bool display) {
+  std::vector<std::string> words = {SACCADE_PROGRAM, "view", "--ui-log", in("log")};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  return exit_status(spawn(words, display));
+}
+
+void XProgramTest::start(const std::vector<std::string>& arguments) {
+  std::vector<std::string> words = {SACCADE_PROGRAM, "view", "--ui-log", in("log")};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  program_ = spawn(words, true);
+  ASSERT_TRUE(until([](const Json& line) { return line.contains("shown"); }));
+  hand("search --onlyvisible --class saccade windowfocus --sync");
+}
+
+int XProgramTest::wait_for_exit() { return exit_status(std::exchange(program_, -1)); }
+
+Json XProgramTest::now() const {
+  std::ifstream log(folder_ / "log");
+  Json newest;
+  for (std::string line; std::getline(log, line);)
+    if (!log.eof()) newest = Json::parse(line, nullptr, false);  // the last line may be on its way
+  return newest;
+}
+
+::testing::AssertionResult XProgramTest::until(const std::function<bool(const Json&)>& condition) const {
+  const auto end = std::chrono::steady_clock::now() + kPatience;
+  Json line;
+  while (std::chrono::steady_clock::now() < end) {
+    line = now();
+    if (line.is_object() && condition(line)) return ::testing::AssertionSuccess();
+    if (program_ > 0 && ::waitpid(program_, nullptr, WNOHANG) != 0)
+      return ::testing::AssertionFailure() << "the program has ended";
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+  return ::testing::AssertionFailure() << "not within a minute; the last line: " << line.dump();
+}
+
+void XProgramTest::hand(const std::string& words) const {
+  const std::string command = "DISPLAY=" + display_ + " xdotool " + words;
+  EXPECT_EQ(std::system(command.c_str()), 0) << command;
+}
+
+std::pair<int, int> XProgramTest::place_of(const std::string& place, double across) const {
+  const Json box = now()["places"][place];
+  const double left = box[0], top = box[1], right = box[2], bottom = box[3];
+  return {static_cast<int>(std::lround(left + (right - left) * across)),
+          static_cast<int>(std::lround((top + bottom) / 2))};
+}
+
+void XProgramTest::click(const std::string& place, double across) const {
+  const auto [x, y] = place_of(place, across);
+  // A person needs a tenth of a second too; ImGui looks at the mouse once a frame.
+  hand("mousemove " + std::to_string(x) + " " + std::to_string(y) +
+       " sleep 0.3 mousedown 1 sleep 0.3 mouseup 1");
+}
+
+void XProgramTest::drag(const std::string& place, double from, double to) const {
+  const auto [x0, y] = place_of(place, from);
+  const int x1 = place_of(place, to).first;
+  const std::string row = std::to_string(y);
+  hand("mousemove " + std::to_string(x0) + " " + row + " sleep 0.3 mousedown 1 sleep 0.3 mousemove " +
+       std::to_string((x0 + x1) / 2) + " " + row + " sleep 0.3 mousemove " + std::to_string(x1) + " " + row +
+       " sleep 0.3 mouseup 1");
+}
+
+}  // namespace saccade

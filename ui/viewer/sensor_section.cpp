@@ -1,0 +1,119 @@
+#include "ui/viewer/sensor_section.hpp"
+
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+#include "drivers/openni2_devices.hpp"
+#include "ui/snapshot.hpp"
+#include "ui/viewer/window.hpp"
+
+namespace saccade {
+namespace {
+
+// What sensors of this kind offer; one that lacks a mode says what it has when it is opened.
+const std::vector<std::string> kUsualModes = {"640x480@30", "320x240@60", "320x240@30", "1280x1024@30"};
+
+std::vector<DeviceChoice> connected_sensors() {
+  std::vector<DeviceChoice> choices;
+  for (const DeviceListing& device : list_devices())
+    choices.push_back({device.identity.name.empty() ? device.identity.uri : device.identity.name,
+                       device.source, device.driver.empty() ? device.identity.vendor : device.driver});
+  return choices;
+}
+
+std::string mode_text(const SourceInfo& source) {
+  return fmt::format("{}x{}@{:.0f}", source.size.width, source.size.height, source.rate_hz);
+}
+
+}  // namespace
+
+SensorSection::SensorSection() : devices_(connected_sensors, [] { Window::wake(); }) {}
+
+SensorSection::~SensorSection() {
+  if (tapped_ != nullptr) tapped_->set_tap({});
+}
+
+void SensorSection::toggle_recording(ViewContext& view) {
+  using Phase = RecordingStatus::Phase;
+  tapped_ = &view.session.playback();
+  if (recording_->status().phase == Phase::recording) {
+    tapped_->set_tap({});
+    recording_->stop();
+    return;
+  }
+  if (recording_->status().phase != Phase::idle || view.source.phase != SessionState::Phase::open) return;
+  OniWriterOptions options;
+  options.rate_hz = view.source.source.rate_hz;
+  options.expect_colour = view.source.source.live;
+  recording_error_.clear();
+  try {
+    recording_->start(unused_path(folder_, "recording", ".oni", std::chrono::system_clock::now()), options);
+    tapped_->set_tap([recording = recording_](const Frame& frame) { recording->offer(frame); });
+  } catch (const Error& error) {
+    recording_error_ = error.what();
+  }
+}
+
+void SensorSection::snapshot(const ViewContext& view) {
+  if (!view.result || writing_.valid()) return;
+  snapshot_ = "writing the snapshot ...";
+  snapshot_error_.clear();
+  OverlayStyle style = view.state.style;
+  if (!view.state.show_map) style.map.opacity = 0;
+  writing_ = std::async(std::launch::async, [folder = folder_, result = view.result, style] {
+    struct Wake {  // also when the disk is full
+      ~Wake() { Window::wake(); }
+    } const wake;
+    return write_snapshot(folder, result->a.result, style, std::chrono::system_clock::now());
+  });
+}
+
+void SensorSection::take_snapshot_result() {
+  if (!writing_.valid() || writing_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
+  snapshot_.clear();
+  try {
+    snapshot_ = "snapshot in " + writing_.get().string();
+  } catch (const std::exception& error) {
+    snapshot_error_ = error.what();
+  }
+}
+
+SensorFacts SensorSection::facts(const ViewContext& view) {
+  SensorFacts facts;
+  const SessionState& session = view.source;
+  facts.source.open = session.phase == SessionState::Phase::open;
+  facts.source.uri = session.uri;
+  facts.source.live = session.source.live;
+  facts.source.paused = view.playback.paused;
+  facts.source.rate_hz = view.history.rate_hz(StageHistory::Clock::now());
+  facts.source.connection = session.connection;
+  facts.source.error = session.error;
+  const DeviceWatch::Seen seen = devices_.seen();
+  facts.devices = seen.devices;
+  facts.devices_error = seen.error;
+  if (facts.source.open && session.source.kind == "openni2") {
+    facts.modes = kUsualModes;
+    facts.mode = mode_text(session.source);
+    facts.values = view.session.sensor_values();
+  }
+  facts.recording = recording_->status();
+  if (!recording_error_.empty()) facts.recording.error = recording_error_;
+  facts.snapshot = snapshot_;
+  facts.snapshot_error = snapshot_error_;
+  return facts;
+}
+
+void SensorSection::draw(ViewContext& view) {
+  take_snapshot_result();
+  const SensorActions actions = draw_sensor_panel(facts(view), std::chrono::steady_clock::now());
+  if (actions.toggle_recording) toggle_recording(view);
+  if (actions.snapshot) snapshot(view);
+  if (actions.request) view.session.request_sensor(*actions.request);
+  if (actions.open) view.open(*actions.open);
+  if (actions.mode) {
+    apply_setting(view.state.tuning.a, "mode", *actions.mode);
+    view.open(view.source.uri);
+  }
+}
+
+}  // namespace saccade

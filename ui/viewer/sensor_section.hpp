@@ -1,0 +1,44 @@
+#pragma once
+
+#include <filesystem>
+#include <future>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "ui/device_watch.hpp"
+#include "ui/recording_session.hpp"
+#include "ui/sensor_panel.hpp"
+#include "ui/viewer/view_context.hpp"
+
+namespace saccade {
+
+/// Sensors, recording and snapshots in the side bar. Files go to the folder in which the program was started.
+class SensorSection {
+ public:
+  SensorSection();
+  ~SensorSection();
+  SensorSection(const SensorSection&) = delete;
+  SensorSection& operator=(const SensorSection&) = delete;
+
+  /// Whether the section is open; it looks for sensors only then. Each frame, also when it is closed.
+  void set_open(bool open) { devices_.set_active(open); }
+  void draw(ViewContext& view);
+
+  void toggle_recording(ViewContext& view);
+  void snapshot(const ViewContext& view);
+
+ private:
+  SensorFacts facts(const ViewContext& view);
+  void take_snapshot_result();
+
+  const std::filesystem::path folder_ = std::filesystem::current_path();
+  // Shared with the capture thread, which may still be in it when a recording or the viewer ends.
+  const std::shared_ptr<RecordingSession> recording_ = std::make_shared<RecordingSession>();
+  Playback* tapped_ = nullptr;
+  DeviceWatch devices_;
+  std::future<std::filesystem::path> writing_;  // the snapshot on its way to the disk
+  std::string snapshot_, snapshot_error_, recording_error_;
+};
+
+}  // namespace saccade
