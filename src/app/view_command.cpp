@@ -89,8 +89,7 @@ void view(const ViewArguments& arguments, const SettingsOptions& options) {
     stopped = true;
     if (running != nullptr) running->stop();
   });
-  Viewer viewer(std::move(state), std::move(viewer_options),
-                [sensor = settings.sensor](const std::string& uri) { return open_source(uri, sensor); });
+  Viewer viewer(std::move(state), std::move(viewer_options), open_source);
   {
     const std::lock_guard lock(mutex);
     running = &viewer;
