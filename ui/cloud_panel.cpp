@@ -30,6 +30,7 @@ void checkbox(const char* label, bool& value, const char* what) {
 void draw_choices(CloudPanelState& state) {
   CloudChoices& choices = state.choices;
   const float em = ImGui::GetFontSize();
+  ImGui::SetCursorPos({ImGui::GetCursorPosX() + em / 4, ImGui::GetCursorPosY() + em / 4});
   ImGui::SetNextItemWidth(7 * em);
   int colour = static_cast<int>(choices.colour);
   if (ImGui::Combo("##colour", &colour, kColourNames.data(), static_cast<int>(kColourNames.size())))

@@ -32,7 +32,7 @@ void duration_row(const DurationSummary& summary) {
 
 void draw_rates(const StageHistory& history, const PerformanceFacts& facts,
                 StageHistory::Clock::time_point now) {
-  if (!begin_labelled_rows("rates", "window redraws")) return;
+  if (!begin_labelled_rows("rates", "frame rate")) return;
   const double rate_hz = history.rate_hz(now);
   std::string rate = rate_hz > 0 ? fmt::format("{:.1f} frames/s", rate_hz) : "no new frames";
   if (facts.source_rate_hz > 0) rate += fmt::format(" (source: {:.1f})", facts.source_rate_hz);
@@ -40,11 +40,11 @@ void draw_rates(const StageHistory& history, const PerformanceFacts& facts,
   const DurationSummary latency = history.latency();
   labelled_row("latency", history.size() == 0
                               ? "-"
-                              : fmt::format("{} ms (median {}, 95 % below {})", milliseconds(latency.last_ms),
+                              : fmt::format("{} ms (median {}, 95 % {})", milliseconds(latency.last_ms),
                                             milliseconds(latency.p50_ms), milliseconds(latency.p95_ms)));
   if (facts.window_last_ms && facts.window_worst_ms)
-    labelled_row("window redraws",
-                 fmt::format("{} ms apart (longest {})", milliseconds(*facts.window_last_ms),
+    labelled_row("window",
+                 fmt::format("{} ms to draw (longest {})", milliseconds(*facts.window_last_ms),
                              milliseconds(*facts.window_worst_ms)),
                  *facts.window_worst_ms > 50 ? Tone::warning : Tone::plain);
   labelled_row("computing",

@@ -147,10 +147,11 @@ Headline headline(const SourceFacts& source, std::chrono::steady_clock::time_poi
     case Connection::streaming:
       break;
   }
-  const char* kind = source.live ? "live" : "recording";
-  if (source.paused) return {fmt::format("{}, paused", kind), Tone::plain};
-  if (source.rate_hz <= 0) return {fmt::format("{}, no frame yet", kind), Tone::warning};
-  return {fmt::format("{} {:.1f} fps", kind, source.rate_hz), source.live ? Tone::good : Tone::plain};
+  if (source.paused) return {source.live ? "live, paused" : "paused", Tone::plain};
+  if (source.rate_hz > 0)
+    return {fmt::format("{} {:.1f} fps", source.live ? "live" : "playing", source.rate_hz),
+            source.live ? Tone::good : Tone::plain};
+  return source.live ? Headline{"live, no frames", Tone::warning} : Headline{"playing", Tone::plain};
 }
 
 Headline recording_line(const RecordingStatus& recording) {
