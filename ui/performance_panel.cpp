@@ -133,6 +133,7 @@ void tell_bar_under_pointer(const Plot& plot, const std::vector<StageHistory::St
 }
 
 void draw_plot(const StageHistory& history) {
+  constexpr std::size_t kFewestBars = 60;  // room for, so that the first frames do not fill the plot
   const std::vector<StageHistory::Stack> stacks = history.stacks();
   const float em = ImGui::GetFontSize(), height = 8 * em;
   const ImVec2 at = ImGui::GetCursorScreenPos();
@@ -147,7 +148,8 @@ void draw_plot(const StageHistory& history) {
   plot.low_left = {at.x + 4.5F * em, at.y + height - 0.7F * em};
   plot.top_right = {at.x + width, at.y + 0.7F * em};
   plot.end_ms = axis_end(std::max(largest, 1.0));
-  plot.bar_px = (plot.top_right.x - plot.low_left.x) / static_cast<float>(history.capacity());
+  plot.bar_px = (plot.top_right.x - plot.low_left.x) /
+                static_cast<float>(std::max<std::size_t>(stacks.size(), kFewestBars));
   ImDrawList& list = *ImGui::GetWindowDrawList();
   draw_axis(list, plot);
   draw_bars(list, plot, stacks);

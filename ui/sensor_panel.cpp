@@ -85,7 +85,10 @@ void draw_devices(const SensorFacts& facts, SensorActions& actions) {
     wrapped_text("none is connected; a new one appears here by itself. If one should be here: saccade doctor",
                  Tone::quiet);
   for (const DeviceChoice& device : *facts.devices)
-    draw_device(device, facts.source.open && facts.source.uri == device.source, actions);
+    draw_device(device,
+                facts.source.open && (facts.source.uri == device.source ||
+                                      (facts.source.uri == "openni2" && facts.devices->size() == 1)),
+                actions);
 }
 
 void draw_mode(const SensorFacts& facts, SensorActions& actions) {

@@ -86,6 +86,7 @@ class SensorPanelTest : public ::testing::Test {
 
 TEST_F(SensorPanelTest, ButtonsAskForWhatTheySay) {
   facts_.source = live(30);
+  facts_.source.uri = "openni2:another/0";
   facts_.devices = {{"Virtual", "openni2:virtual/0", "Saccade"}};
   facts_.values.mirror = false;
   click_everywhere();
