@@ -30,6 +30,7 @@ void checkbox(const char* label, bool& value, const char* what) {
 void draw_choices(CloudPanelState& state) {
   CloudChoices& choices = state.choices;
   const float em = ImGui::GetFontSize();
+  ImGui::SetCursorPos({ImGui::GetCursorPosX() + em / 4, ImGui::GetCursorPosY() + em / 4});
   ImGui::SetNextItemWidth(7 * em);
   int colour = static_cast<int>(choices.colour);
   if (ImGui::Combo("##colour", &colour, kColourNames.data(), static_cast<int>(kColourNames.size())))
@@ -85,7 +86,10 @@ void draw_marker(ImDrawList& list, ImVec2 at, std::size_t rank, const cv::Point3
   const std::string text =
       fmt::format("{:.0f} {:.0f} {:.0f} mm", position_mm.x, position_mm.y, position_mm.z);
   const ImVec2 size = ImGui::CalcTextSize(text.c_str());
-  const ImVec2 corner(at.x + radius + 0.3F * em, at.y - size.y / 2);
+  // At the right; at the left where there is no room.
+  const float right = at.x + radius + 0.3F * em;
+  const bool fits = right + size.x < list.GetClipRectMax().x;
+  const ImVec2 corner(fits ? right : at.x - radius - 0.3F * em - size.x, at.y - size.y / 2);
   const Box box{{corner.x - 0.2F * em, corner.y}, {corner.x + size.x + 0.2F * em, corner.y + size.y}};
   if (std::any_of(taken.begin(), taken.end(), [&](const Box& other) { return box.meets(other); })) return;
   taken.push_back(box);

@@ -27,7 +27,7 @@ void main() {
   gl_PointSize = clamp(focal_px * point_mm_per_m * position.z / 1000.0 / max(-eye.z, 1.0), 1.0, 64.0);
   float light = 1.0;
   if (lit && dot(normal, normal) > 0.0)
-    light = 0.3 + 0.7 * abs(dot(normalize(mat3(view) * normal), normalize(eye.xyz)));
+    light = 0.4 + 0.6 * abs(dot(normalize(mat3(view) * normal), normalize(eye.xyz)));
   shaded = colour.rgb * light;
 }
 )";

@@ -14,7 +14,8 @@ OrbitCamera OrbitCamera::at_sensor(const Intrinsics& camera, cv::Size image, dou
   OrbitCamera result;
   result.distance_ = std::clamp(target_mm, kNearest_mm, kFarthest_mm);
   result.target_ = {0, 0, result.distance_};
-  result.tan_half_fov_ = image.height / 2.0 / camera.fy;
+  result.half_width_ = image.width / 2.0 / camera.fx;
+  result.half_height_ = image.height / 2.0 / camera.fy;
   return result;
 }
 
@@ -53,12 +54,14 @@ cv::Matx44d OrbitCamera::view() const {
 }
 
 double OrbitCamera::focal_px(cv::Size viewport) const {
-  return std::max(viewport.height, 1) / 2.0 / tan_half_fov_;
+  return std::min(std::max(viewport.width, 1) / 2.0 / half_width_,
+                  std::max(viewport.height, 1) / 2.0 / half_height_);
 }
 
 cv::Matx44d OrbitCamera::projection(cv::Size viewport) const {
   const double near = nearest_shown_mm(), far = distance_ + 2 * kFarthest_mm;
-  const double y = 1 / tan_half_fov_, x = y * viewport.height / std::max(viewport.width, 1);
+  const double x = 2 * focal_px(viewport) / std::max(viewport.width, 1),
+               y = 2 * focal_px(viewport) / std::max(viewport.height, 1);
   return {x,
           0,
           0,

@@ -16,8 +16,8 @@ class OrbitCamera {
 
   OrbitCamera() = default;
 
-  /// The sensor's own view: the eye where the sensor is, its vertical field of view, the target straight
-  /// ahead at `target_mm`.
+  /// The sensor's own view: the eye where the sensor is, the whole image in sight, the target straight ahead
+  /// at `target_mm`.
   static OrbitCamera at_sensor(const Intrinsics& camera, cv::Size image, double target_mm);
 
   /// Turns the scene with a drag: half a turn for the height of the viewport. The eye does not go over the
@@ -54,8 +54,8 @@ class OrbitCamera {
 
   cv::Vec3d target_{0, 0, 1000};
   double distance_ = 1000;
-  double yaw_ = 0, pitch_ = 0;  // rad; positive: the eye is left of, above the target
-  double tan_half_fov_ = 0.46;  // vertical
+  double yaw_ = 0, pitch_ = 0;                     // rad; positive: the eye is left of, above the target
+  double half_width_ = 0.61, half_height_ = 0.46;  // of what is seen, at a distance of 1
 };
 
 }  // namespace saccade

@@ -32,7 +32,7 @@ void duration_row(const DurationSummary& summary) {
 
 void draw_rates(const StageHistory& history, const PerformanceFacts& facts,
                 StageHistory::Clock::time_point now) {
-  if (!begin_labelled_rows("rates", "window redraws")) return;
+  if (!begin_labelled_rows("rates", "frame rate")) return;
   const double rate_hz = history.rate_hz(now);
   std::string rate = rate_hz > 0 ? fmt::format("{:.1f} frames/s", rate_hz) : "no new frames";
   if (facts.source_rate_hz > 0) rate += fmt::format(" (source: {:.1f})", facts.source_rate_hz);
@@ -40,11 +40,11 @@ void draw_rates(const StageHistory& history, const PerformanceFacts& facts,
   const DurationSummary latency = history.latency();
   labelled_row("latency", history.size() == 0
                               ? "-"
-                              : fmt::format("{} ms (median {}, 95 % below {})", milliseconds(latency.last_ms),
+                              : fmt::format("{} ms (median {}, 95 % {})", milliseconds(latency.last_ms),
                                             milliseconds(latency.p50_ms), milliseconds(latency.p95_ms)));
   if (facts.window_last_ms && facts.window_worst_ms)
-    labelled_row("window redraws",
-                 fmt::format("{} ms apart (longest {})", milliseconds(*facts.window_last_ms),
+    labelled_row("window",
+                 fmt::format("{} ms to draw (longest {})", milliseconds(*facts.window_last_ms),
                              milliseconds(*facts.window_worst_ms)),
                  *facts.window_worst_ms > 50 ? Tone::warning : Tone::plain);
   labelled_row("computing",
@@ -133,6 +133,7 @@ void tell_bar_under_pointer(const Plot& plot, const std::vector<StageHistory::St
 }
 
 void draw_plot(const StageHistory& history) {
+  constexpr std::size_t kFewestBars = 60;  // room for, so that the first frames do not fill the plot
   const std::vector<StageHistory::Stack> stacks = history.stacks();
   const float em = ImGui::GetFontSize(), height = 8 * em;
   const ImVec2 at = ImGui::GetCursorScreenPos();
@@ -147,7 +148,8 @@ void draw_plot(const StageHistory& history) {
   plot.low_left = {at.x + 4.5F * em, at.y + height - 0.7F * em};
   plot.top_right = {at.x + width, at.y + 0.7F * em};
   plot.end_ms = axis_end(std::max(largest, 1.0));
-  plot.bar_px = (plot.top_right.x - plot.low_left.x) / static_cast<float>(history.capacity());
+  plot.bar_px = (plot.top_right.x - plot.low_left.x) /
+                static_cast<float>(std::max<std::size_t>(stacks.size(), kFewestBars));
   ImDrawList& list = *ImGui::GetWindowDrawList();
   draw_axis(list, plot);
   draw_bars(list, plot, stacks);

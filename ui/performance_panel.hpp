@@ -14,8 +14,8 @@ struct PerformanceFacts {
   int workers = 1;                          ///< threads that compute
   std::string simd{};                       ///< the instruction set of the fast operator, as asked for
   double source_rate_hz = 0;                ///< nominal; 0 = not known
-  std::optional<double> window_last_ms{};   ///< time from the window's last frame to the one before
-  std::optional<double> window_worst_ms{};  ///< the longest of late
+  std::optional<double> window_last_ms{};   ///< what the window's last frame took to draw
+  std::optional<double> window_worst_ms{};  ///< the longest so far
 };
 
 /// The panel: frame rate and latency, the stages' times (last, median, 95th percentile) with a stacked plot

@@ -85,7 +85,10 @@ void draw_devices(const SensorFacts& facts, SensorActions& actions) {
     wrapped_text("none is connected; a new one appears here by itself. If one should be here: saccade doctor",
                  Tone::quiet);
   for (const DeviceChoice& device : *facts.devices)
-    draw_device(device, facts.source.open && facts.source.uri == device.source, actions);
+    draw_device(device,
+                facts.source.open && (facts.source.uri == device.source ||
+                                      (facts.source.uri == "openni2" && facts.devices->size() == 1)),
+                actions);
 }
 
 void draw_mode(const SensorFacts& facts, SensorActions& actions) {
@@ -147,10 +150,11 @@ Headline headline(const SourceFacts& source, std::chrono::steady_clock::time_poi
     case Connection::streaming:
       break;
   }
-  const char* kind = source.live ? "live" : "recording";
-  if (source.paused) return {fmt::format("{}, paused", kind), Tone::plain};
-  if (source.rate_hz <= 0) return {fmt::format("{}, no frame yet", kind), Tone::warning};
-  return {fmt::format("{} {:.1f} fps", kind, source.rate_hz), source.live ? Tone::good : Tone::plain};
+  if (source.paused) return {source.live ? "live, paused" : "paused", Tone::plain};
+  if (source.rate_hz > 0)
+    return {fmt::format("{} {:.1f} fps", source.live ? "live" : "playing", source.rate_hz),
+            source.live ? Tone::good : Tone::plain};
+  return source.live ? Headline{"live, no frames", Tone::warning} : Headline{"playing", Tone::plain};
 }
 
 Headline recording_line(const RecordingStatus& recording) {

@@ -70,7 +70,7 @@ TEST_F(CloudRendererTest, LightFallsFromTheEye) {
     return drawn(camera, kSize, {.lit = lit, .point_mm_per_m = 60})(24, 32)[0];
   };
   EXPECT_EQ(brightness({0, 0, -127, 0}, true), 200) << "towards the eye";
-  EXPECT_NEAR(brightness({-90, 0, -90, 0}, true), 200 * (0.3 + 0.7 * 0.7071), 2) << "at 45 degrees";
+  EXPECT_NEAR(brightness({-90, 0, -90, 0}, true), 200 * (0.4 + 0.6 * 0.7071), 2) << "at 45 degrees";
   EXPECT_EQ(brightness({-90, 0, -90, 0}, false), 200);
   EXPECT_EQ(brightness({}, true), 200) << "no normal";
 }

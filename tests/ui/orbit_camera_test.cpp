@@ -25,6 +25,15 @@ TEST(OrbitCamera, AtTheSensorAViewportOfTheImagesShapeShowsTheImage) {
   EXPECT_EQ(camera().eye_mm(), cv::Vec3d());
 }
 
+TEST(OrbitCamera, AtTheSensorTheWholeImageIsInSightInAViewportOfAnyShape) {
+  for (const cv::Size viewport : {cv::Size(300, 900), cv::Size(900, 300)}) {
+    const cv::Rect2d inside(-1, -1, viewport.width + 2, viewport.height + 2);
+    for (const cv::Point pixel : {cv::Point(0, 0), cv::Point(639, 479)})
+      EXPECT_TRUE(
+          inside.contains(camera().project(kCamera.point_mm(pixel.y, pixel.x, 1000), viewport).value()));
+  }
+}
+
 TEST(OrbitCamera, WhatIsNearFollowsAnOrbitDrag) {
   OrbitCamera eye = camera();
   eye.orbit({100, 0}, kViewport);

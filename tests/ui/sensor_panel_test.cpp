@@ -20,7 +20,7 @@ TEST(Headline, SaysHowTheSourceDoes) {
   const std::chrono::steady_clock::time_point now{100s};
   EXPECT_EQ(headline(live(30), now).text, "live 30.0 fps");
   EXPECT_EQ(headline(live(30), now).tone, Tone::good);
-  EXPECT_EQ(headline(live(0), now).text, "live, no frame yet");
+  EXPECT_EQ(headline(live(0), now).text, "live, no frames");
 
   SourceFacts source = live(0);
   source.connection = {.connection = Connection::waiting, .text = "no sensor is connected"};
@@ -32,8 +32,8 @@ TEST(Headline, SaysHowTheSourceDoes) {
   source.error = "the device is of another size";
   EXPECT_EQ(headline(source, now).tone, Tone::bad);
 
-  EXPECT_EQ(headline({.open = true, .uri = "a.oni", .rate_hz = 4}, now).text, "recording 4.0 fps");
-  EXPECT_EQ(headline({.open = true, .uri = "a.oni", .paused = true}, now).text, "recording, paused");
+  EXPECT_EQ(headline({.open = true, .uri = "a.oni", .rate_hz = 4}, now).text, "playing 4.0 fps");
+  EXPECT_EQ(headline({.open = true, .uri = "a.oni", .paused = true}, now).text, "paused");
   EXPECT_EQ(headline({.uri = "a.oni"}, now).text, "opening ...");
   EXPECT_EQ(headline({}, now).text, "no source");
 }
@@ -86,6 +86,7 @@ class SensorPanelTest : public ::testing::Test {
 
 TEST_F(SensorPanelTest, ButtonsAskForWhatTheySay) {
   facts_.source = live(30);
+  facts_.source.uri = "openni2:another/0";
   facts_.devices = {{"Virtual", "openni2:virtual/0", "Saccade"}};
   facts_.values.mirror = false;
   click_everywhere();

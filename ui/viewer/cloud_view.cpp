@@ -6,6 +6,7 @@ namespace saccade {
 
 void CloudView::draw(ViewContext& view) {
   if (!view.result) return;
+  view.wants.normals = state_.choices.lit || state_.choices.needles;
   const Computed& computed = view.result->a;
   if (!scene_) scene_ = std::make_unique<CloudScene>();
   const CloudFrame frame{view.result->frame(), computed.smooth, computed.result.maps.normals,

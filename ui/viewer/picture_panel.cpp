@@ -233,10 +233,10 @@ void PicturePanel::draw_side(ViewContext& view, const Place& place) {
   l.background.set_sharp(l.view.scale() >= kSharpFrom);
   draw.AddImage(l.background.id(), low, high);
   if (view.state.show_map) draw.AddImage((place.is_b ? l.b : l.a).texture.id(), low, high);
+  draw_shapes(draw, overlay_shapes(computed, view.state.style, l.view, view.unit), place.corner);
   if (view.over_picture)
     view.over_picture(
         draw, {on_screen({0, 0}), place.clip_low, place.clip_high, static_cast<float>(l.view.scale())});
-  draw_shapes(draw, overlay_shapes(computed, view.state.style, l.view, view.unit), place.corner);
 
   const float pad = view.px(8);
   const std::string title = title_of(computed, view.state.comparing() ? (place.is_b ? "B  " : "A  ") : "");

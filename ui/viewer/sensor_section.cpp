@@ -78,6 +78,17 @@ void SensorSection::take_snapshot_result() {
   }
 }
 
+// What comes from the source, computed or not.
+double SensorSection::captured_rate_hz(const Ledger& ledger) {
+  constexpr std::chrono::seconds kRecent{2};
+  const auto now = std::chrono::steady_clock::now();
+  if (!captured_.empty() && ledger.captured < captured_.back().frames) captured_.clear();  // another source
+  captured_.push_back({now, ledger.captured});
+  while (now - captured_.front().at > kRecent && captured_.size() > 2) captured_.pop_front();
+  const double span_s = std::chrono::duration<double>(now - captured_.front().at).count();
+  return span_s > 0 ? static_cast<double>(ledger.captured - captured_.front().frames) / span_s : 0;
+}
+
 SensorFacts SensorSection::facts(const ViewContext& view) {
   SensorFacts facts;
   const SessionState& session = view.source;
@@ -85,7 +96,7 @@ SensorFacts SensorSection::facts(const ViewContext& view) {
   facts.source.uri = session.uri;
   facts.source.live = session.source.live;
   facts.source.paused = view.playback.paused;
-  facts.source.rate_hz = view.history.rate_hz(StageHistory::Clock::now());
+  facts.source.rate_hz = captured_rate_hz(session.ledger);
   facts.source.connection = session.connection;
   facts.source.error = session.error;
   const DeviceWatch::Seen seen = devices_.seen();

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <chrono>
+#include <deque>
 #include <filesystem>
 #include <future>
 #include <memory>
@@ -31,12 +33,18 @@ class SensorSection {
  private:
   SensorFacts facts(const ViewContext& view);
   void take_snapshot_result();
+  double captured_rate_hz(const Ledger& ledger);
 
   const std::filesystem::path folder_ = std::filesystem::current_path();
   // Shared with the capture thread, which may still be in it when a recording or the viewer ends.
   const std::shared_ptr<RecordingSession> recording_ = std::make_shared<RecordingSession>();
   Playback* tapped_ = nullptr;
   DeviceWatch devices_;
+  struct Captured {
+    std::chrono::steady_clock::time_point at;
+    std::int64_t frames;
+  };
+  std::deque<Captured> captured_;               // of the last two seconds
   std::future<std::filesystem::path> writing_;  // the snapshot on its way to the disk
   std::string snapshot_, snapshot_error_, recording_error_;
 };
