@@ -9,6 +9,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <thread>
 #include <utility>
@@ -89,6 +90,7 @@ int XProgramTest::run(const std::vector<std::string>& arguments, bool display) {
 void XProgramTest::start(const std::vector<std::string>& arguments) {
   std::vector<std::string> words = {SACCADE_PROGRAM, "view", "--ui-log", in("log")};
   words.insert(words.end(), arguments.begin(), arguments.end());
+  std::filesystem::remove(folder_ / "log");  // of the last start
   program_ = spawn(words, true);
   ASSERT_TRUE(until([](const Json& line) { return line.contains("shown"); }));
   hand("search --onlyvisible --class saccade windowfocus --sync");

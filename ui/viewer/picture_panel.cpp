@@ -248,8 +248,8 @@ void PicturePanel::draw_side(ViewContext& view, const Place& place) {
   if (!computed.error.empty())
     draw_chip(view, {place.clip_low.x + pad, place.clip_low.y + pad + ImGui::GetFontSize() * 2},
               computed.error, colours_of(Theme::dark).error);
-  else if (view.state.show_map && !(place.is_b && view.state.comparison == Comparison::split))
-    draw_legend(view, computed, {place.corner.x + place.size.x - pad, place.clip_high.y - pad});
+  else if (view.state.show_map)
+    draw_legend(view, computed, {place.clip_high.x - pad, place.clip_high.y - pad});
   if (view.pointer && view.pointer_on_b == place.is_b) {
     const cv::Point p = *view.pointer;
     const float depth = view.result->frame().depth_mm(p);

@@ -97,6 +97,9 @@ void apply_theme(Theme theme, double scale) {
   set(ImGuiCol_PopupBg, s.popup);
   set(ImGuiCol_Border, c.line);
   set(ImGuiCol_Separator, c.line);
+  set(ImGuiCol_TitleBg, s.button);
+  set(ImGuiCol_TitleBgActive, s.button);
+  set(ImGuiCol_ResizeGrip, 0);
   set(ImGuiCol_FrameBg, s.frame);
   set(ImGuiCol_FrameBgHovered, s.frame_hovered);
   set(ImGuiCol_FrameBgActive, s.frame_active);
