@@ -1,8 +1,8 @@
 # OpenNI2, and the folder from which a program of ours loads it together with its driver modules.
 #
 # OpenNI2 looks for driver modules in the folder OpenNI2/Drivers beside the libOpenNI2.so.0 that was loaded, and a
-# symbolic link counts as the place where it lies. So a folder with a link to the library, links to the stock modules and
-# our own modules makes all sensors known to any program that loads the library from there:
+# symbolic link counts as the place where it lies. So a folder with a link to the library, links to the stock modules
+# and our own modules makes all sensors known to any program that loads the library from there:
 #
 #   <build>/openni2/            or  <prefix>/lib/saccade/openni2/
 #     libOpenNI2.so.0               -> the system's
@@ -37,9 +37,10 @@ function(saccade_driver_module name)
   cmake_parse_arguments(arg "" "" "SOURCES;LINK" ${ARGN})
   add_library(${name} MODULE ${arg_SOURCES})
   target_link_libraries(${name} PRIVATE saccade_flags ${arg_LINK})
-  # OpenNI2 unloads its modules when a program is done with it; the libraries below ours do not bear that, so the module
-  # stays.
-  target_link_options(${name} PRIVATE LINKER:--version-script=${CMAKE_CURRENT_SOURCE_DIR}/exports.map LINKER:-z,nodelete)
+  # OpenNI2 unloads its modules when a program is done with it; the libraries below ours do not bear that, so the
+  # module stays.
+  target_link_options(${name} PRIVATE
+    LINKER:--version-script=${CMAKE_CURRENT_SOURCE_DIR}/exports.map LINKER:-z,nodelete)
   set_target_properties(${name} PROPERTIES
     SUFFIX .so.0 LIBRARY_OUTPUT_DIRECTORY ${SACCADE_REDIST}/OpenNI2/Drivers
     LINK_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/exports.map)

@@ -1,6 +1,9 @@
 #include "drivers/openni2_runtime.hpp"
 
+#include <sched.h>
+
 #include <algorithm>
+#include <thread>
 
 #include <OpenNI.h>
 
@@ -11,6 +14,21 @@ namespace {
 
 DeviceIdentity identity_of(const openni::DeviceInfo& info) {
   return {info.getUri(), info.getVendor(), info.getName(), info.getUsbVendorId(), info.getUsbProductId()};
+}
+
+// Why it could not; empty if it could. OpenNI2 moves to the folder of its modules while it loads them, which
+// would lead astray whoever opens a relative path just then. So it starts on a thread whose working directory
+// is its own; where a sandbox does not allow that, it starts all the same.
+std::string start_openni2() {
+  std::string why;
+  std::thread([&why] {
+    ::unshare(CLONE_FS);
+    if (openni::OpenNI::initialize() == openni::STATUS_OK) return;
+    why = openni::OpenNI::getExtendedError();
+    openni::OpenNI::shutdown();
+    if (why.empty()) why = "it does not say why";
+  }).join();
+  return why;
 }
 
 }  // namespace
@@ -67,11 +85,8 @@ OpenNi2Runtime& OpenNi2Runtime::instance() {
 }
 
 OpenNi2Runtime::OpenNi2Runtime() : listener_(std::make_unique<Listener>()) {
-  if (openni::OpenNI::initialize() != openni::STATUS_OK) {
-    const std::string why = openni::OpenNI::getExtendedError();
-    openni::OpenNI::shutdown();
+  if (const std::string why = start_openni2(); !why.empty())
     throw failed("OpenNI2 does not start", why, "saccade doctor looks for the reason");
-  }
   openni::OpenNI::addDeviceConnectedListener(listener_.get());
   openni::OpenNI::addDeviceDisconnectedListener(listener_.get());
   openni::OpenNI::addDeviceStateChangedListener(listener_.get());

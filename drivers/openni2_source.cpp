@@ -204,7 +204,9 @@ void OpenNi2Source::check_size() const {
   if (device_->size() == info_.size) return;
   throw failed(fmt::format("the device gives {}x{}, not {}x{}", device_->size().width, device_->size().height,
                            info_.size.width, info_.size.height),
-               name_of(device_->identity()), "start again, or give the --mode that it has");
+               name_of(device_->identity()),
+               fmt::format("start again now that it is there, or with --mode {}x{}", device_->size().width,
+                           device_->size().height));
 }
 
 void OpenNi2Source::took_device() {

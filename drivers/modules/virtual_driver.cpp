@@ -2,6 +2,7 @@
 // as a live device, to any OpenNI2 program.
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -20,6 +21,18 @@ namespace {
 constexpr const char* kVariable = "SACCADE_VIRTUAL_DEVICE";
 constexpr const char* kUri = "saccade-virtual://0";
 
+// The folder in which the program was started, whose paths the user means. While OpenNI2 loads a module it is
+// in the module's folder, with the whole program or, as ours does it, with one thread. In the first case only
+// the shell has told where the program was.
+std::filesystem::path folder_of_program() {
+  namespace fs = std::filesystem;
+  std::error_code code;
+  const fs::path here = fs::current_path(code), main_thread = fs::read_symlink("/proc/self/cwd", code);
+  if (!main_thread.empty() && main_thread != here) return main_thread;
+  const char* told = std::getenv("PWD");
+  return told != nullptr && fs::path(told).is_absolute() ? fs::path(told) : here;
+}
+
 class VirtualDriver final : public oni::driver::DriverBase {
  public:
   explicit VirtualDriver(OniDriverServices* services) : DriverBase(services) {}
@@ -32,6 +45,7 @@ class VirtualDriver final : public oni::driver::DriverBase {
     if (text == nullptr || *text == '\0') return ONI_STATUS_OK;
     try {
       spec_ = parse_virtual(text);
+      spec_->source = seen_from(folder_of_program(), spec_->source);
       open_playable(*spec_);  // now, so that the user learns at once what is wrong
     } catch (const std::exception& error) {
       tell(error.what());

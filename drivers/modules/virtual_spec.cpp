@@ -117,4 +117,10 @@ VirtualSpec parse_virtual(const std::string& text) {
   return spec;
 }
 
+std::string seen_from(const std::filesystem::path& folder, const std::string& source) {
+  for (const char* scheme : {"openni2", "synthetic:", "v4l2:"})
+    if (source.starts_with(scheme)) return source;
+  return (folder / source).lexically_normal();
+}
+
 }  // namespace saccade

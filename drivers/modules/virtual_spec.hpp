@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
 
@@ -31,5 +32,8 @@ struct VirtualSpec {
 /// that are not of the virtual device. Throws Error (usage) for a key that nobody knows, one given twice, or
 /// a bad value; it names what is expected.
 VirtualSpec parse_virtual(const std::string& text);
+
+/// The source that `source` means to somebody in `folder`: relative paths become absolute, all else stays.
+std::string seen_from(const std::filesystem::path& folder, const std::string& source);
 
 }  // namespace saccade

@@ -51,26 +51,22 @@ void check_openni2(const Examination& found, std::vector<Problem>& problems) {
 }
 
 void check_sensor(const UsbSensor& sensor, std::vector<Problem>& problems) {
+  if (sensor.kind.part == Part::companion) return;  // motor and audio are slow and left alone
   const std::string name = title(sensor);
   if (sensor.kind.part == Part::unsupported) {
     problems.push_back({name + ": no driver module for it is here",
-                        "use its maker's OpenNI2 module: copy it to "
-                        "the driver folder"});
+                        "use its maker's OpenNI2 module: copy it to the driver folder"});
     return;
   }
   if (sensor.access == Access::no_node)
     problems.push_back({fmt::format("{}: there is no device file {}", name, sensor.node.string()),
                         "sudo udevadm trigger --subsystem-match=usb, or hand /dev/bus/usb to the container"});
-  if (sensor.access == Access::denied)
+  if (sensor.access == Access::denied || sensor.access == Access::root_only)
     problems.push_back(
         {fmt::format(
-             "{}: no permission for {} ({}), {}", name, sensor.node.string(), sensor.mode,
-             sensor.rule.empty() ? "no udev rule names it" : "though " + sensor.rule.string() + " names it"),
-         access_remedy(sensor)});
-  if (sensor.access == Access::root_only)
-    problems.push_back(
-        {fmt::format(
-             "{}: only root has permission for {} ({}), {}", name, sensor.node.string(), sensor.mode,
+             "{}: {} {} ({}), {}", name,
+             sensor.access == Access::denied ? "no permission for" : "only root has permission for",
+             sensor.node.string(), sensor.mode,
              sensor.rule.empty() ? "no udev rule names it" : "though " + sensor.rule.string() + " names it"),
          access_remedy(sensor)});
   if (sensor.speed_mbps > 0 && sensor.speed_mbps < kHighSpeed_mbps)

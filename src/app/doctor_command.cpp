@@ -82,9 +82,11 @@ void tell(const Examination& found, const std::vector<Problem>& problems) {
     fmt::print("          {}{}\n", module.name, module.problem.empty() ? "" : ": " + module.problem);
   if (found.usb.empty()) fmt::print("USB       nothing that looks like a sensor\n");
   for (const UsbSensor& sensor : found.usb)
-    fmt::print("USB       {} {:04x}:{:04x}, port {}, {:g} Mb/s, {} {}: {}; udev rule: {}\n", sensor.kind.name,
-               sensor.kind.vendor, sensor.product, sensor.place, sensor.speed_mbps, sensor.node.string(),
-               sensor.mode, to_text(sensor.access), sensor.rule.empty() ? "none" : sensor.rule.string());
+    fmt::print("USB       {} {:04x}:{:04x}, port {}, {}, {} {}: {}; udev rule: {}\n", sensor.kind.name,
+               sensor.kind.vendor, sensor.product, sensor.place,
+               sensor.speed_mbps > 0 ? fmt::format("{:g} Mb/s", sensor.speed_mbps) : "speed unknown",
+               sensor.node.string(), sensor.mode, to_text(sensor.access),
+               sensor.rule.empty() ? "none" : sensor.rule.string());
   for (const DeviceListing& device : found.devices)
     fmt::print("sensor    {} {}: {}\n", device.identity.vendor, device.identity.name, device.source);
   for (const Problem& problem : problems) fmt::print("PROBLEM   {} -> {}\n", problem.what, problem.remedy);

@@ -29,6 +29,7 @@ std::string progress_text(std::int64_t done, std::optional<std::int64_t> total, 
 }
 
 std::string live_text(const Ledger& ledger, const DurationHistogram& latency) {
+  if (latency.count() == 0) return fmt::format("{} dropped", ledger.dropped);
   return fmt::format("latency {:.0f} ms (95 %: {:.0f}), {} dropped", latency.percentile_ms(0.5),
                      latency.percentile_ms(0.95), ledger.dropped);
 }

@@ -118,7 +118,9 @@ TEST_F(DoctorTest, ASlowPortIsNamedWithItsSpeed) {
 
 TEST_F(DoctorTest, AKinectWithoutPowerShowsItsMotorOnly) {
   plug_in("1-1.1", "045e:02b0", "12", 0666);
-  EXPECT_THAT(all_problems(doctor()), HasSubstr("no power"));
+  const json report = doctor();
+  EXPECT_THAT(all_problems(report), HasSubstr("no power"));
+  EXPECT_EQ(report["problems"].size(), 1U) << "it is meant to be that slow";
 }
 
 TEST_F(DoctorTest, TheWebcamDriverOfTheKernelIsInTheWay) {

@@ -1,10 +1,12 @@
 // run and record on a live device, as a user meets it: slow processing, losses, Ctrl-C. The device is the
 // virtual one, through OpenNI2 and our driver module.
+#include <sched.h>
 #include <signal.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>
+#include <thread>
 
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
@@ -116,6 +118,20 @@ TEST_F(LiveTest, ADeviceMayComeLate) {
       {"run", "openni2", "--mode", "160x120", "--frames", "3", "--out", in("out"), "--dump", "none"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_EQ(manifest()["intrinsics"]["from"], "sensor") << "though it was not known at the start";
+}
+
+TEST_F(LiveTest, ADeviceNamedByARelativePathIsSeenFromWhereTheProgramWasStarted) {
+  bool allowed = false;
+  std::thread([&allowed] { allowed = ::unshare(CLONE_FS) == 0; }).join();
+  if (!allowed) GTEST_SKIP() << "threads may not have a working directory of their own here";
+  std::filesystem::copy(SACCADE_SOURCE_DIR "/recordings/table.oni", in("a.oni"));
+  ::setenv("SACCADE_VIRTUAL_DEVICE", "a.oni", 1);
+  const auto before = std::filesystem::current_path();
+  std::filesystem::current_path(folder_);
+  const Outcome outcome = run_saccade({"run", "openni2", "--frames", "2", "--out", "out", "--dump", "none"});
+  std::filesystem::current_path(before);
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(lines("out/fixations.jsonl"), 2) << "in the same folder";
 }
 
 TEST_F(LiveTest, NoDeviceIsOneLine) {

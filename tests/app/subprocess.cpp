@@ -36,9 +36,14 @@ bool has_ended(pid_t child) {
 
 Outcome run_saccade(const std::vector<std::string>& arguments, int interrupt_after_ms,
                     const fs::path& wait_for, int signal) {
+  return run_program(SACCADE_PROGRAM, arguments, interrupt_after_ms, wait_for, signal);
+}
+
+Outcome run_program(const std::string& program, const std::vector<std::string>& arguments,
+                    int interrupt_after_ms, const fs::path& wait_for, int signal) {
   const fs::path base = fs::path(::testing::TempDir()) / ("saccade_" + std::to_string(::getpid()));
   const std::string out = base.string() + ".out", err = base.string() + ".err";
-  std::vector<char*> argv = {const_cast<char*>(SACCADE_PROGRAM)};
+  std::vector<char*> argv = {const_cast<char*>(program.c_str())};
   for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
   argv.push_back(nullptr);
   const pid_t child = ::fork();
@@ -47,7 +52,7 @@ Outcome run_saccade(const std::vector<std::string>& arguments, int interrupt_aft
     const int e = ::open(err.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
     ::dup2(o, STDOUT_FILENO);
     ::dup2(e, STDERR_FILENO);
-    ::execv(argv[0], argv.data());
+    ::execvp(argv[0], argv.data());
     ::_exit(127);
   }
   if (interrupt_after_ms >= 0) {

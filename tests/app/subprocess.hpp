@@ -23,6 +23,10 @@ struct Outcome {
 Outcome run_saccade(const std::vector<std::string>& arguments, int interrupt_after_ms = -1,
                     const std::filesystem::path& wait_for = {}, int signal = 2);
 
+/// Likewise any program; finds it in PATH if it is a name alone.
+Outcome run_program(const std::string& program, const std::vector<std::string>& arguments,
+                    int interrupt_after_ms = -1, const std::filesystem::path& wait_for = {}, int signal = 2);
+
 /// A test that runs the program in a folder of its own.
 class ProgramTest : public FolderTest {
  protected:

@@ -1,5 +1,6 @@
 // The virtual device, through OpenNI2 as any program would use it.
 #include <cmath>
+#include <cstdlib>
 #include <fstream>
 #include <optional>
 #include <thread>
@@ -98,6 +99,18 @@ TEST_F(VirtualDeviceTest, WhatCannotBePlayedIsToldInOneLineAndNotListed) {
     EXPECT_THAT(err, HasSubstr("SACCADE_VIRTUAL_DEVICE"));
     openni::OpenNI::shutdown();
   }
+}
+
+TEST_F(VirtualDeviceTest, ARelativePathIsSeenFromTheFolderThatTheShellTells) {
+  const char* pwd = std::getenv("PWD");
+  const std::optional<std::string> before = pwd != nullptr ? std::optional<std::string>(pwd) : std::nullopt;
+  ::setenv("PWD", SACCADE_SOURCE_DIR, 1);
+  offer("recordings/table.oni");
+  EXPECT_THAT(uris(), ::testing::Contains("saccade-virtual://0"));
+  if (before)
+    ::setenv("PWD", before->c_str(), 1);
+  else
+    ::unsetenv("PWD");
 }
 
 TEST_F(VirtualDeviceTest, GivesTheFramesOfTheSourceWithDepthAndColourOfOneMoment) {

@@ -34,6 +34,13 @@ TEST(VirtualSpec, IsASourceAlone) {
   }
 }
 
+TEST(VirtualSpec, RelativePathsAreSeenFromAFolder) {
+  EXPECT_EQ(seen_from("/home/me", "recordings/table.oni"), "/home/me/recordings/table.oni");
+  EXPECT_EQ(seen_from("/home/me", "../a b"), "/home/a b");
+  for (const char* source : {"/data/a.oni", "synthetic:table", "v4l2:0", "openni2:uri"})
+    EXPECT_EQ(seen_from("/home/me", source), source);
+}
+
 TEST(VirtualSpec, FaultsFollowTheSource) {
   for (const char separator : {'?', '&'}) {
     const VirtualSpec spec = parse_virtual(std::string("a b.oni") + separator +
