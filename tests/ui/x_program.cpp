@@ -65,6 +65,7 @@ XProgramTest::~XProgramTest() {
 pid_t XProgramTest::spawn(const std::vector<std::string>& words, bool display) const {
   const pid_t child = ::fork();
   if (child != 0) return child;
+  std::filesystem::current_path(folder_);  // what it writes goes there
   if (display)
     ::setenv("DISPLAY", display_.c_str(), 1);
   else

@@ -22,7 +22,7 @@ class XProgramTest : public FolderTest {
   void SetUp() override;
   ~XProgramTest() override;
 
-  /// Starts `saccade view` with these arguments and the log; a minute for its first frame.
+  /// Starts `saccade view`, in the test's folder, with these arguments and the log; a minute for its first frame.
   void start(const std::vector<std::string>& arguments);
 
   /// Starts the program and waits for its end; the exit status. `display` = false: without any.

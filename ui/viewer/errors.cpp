@@ -28,10 +28,13 @@ void draw_errors(ViewContext& view) {
     ImGui::TextWrapped("%s", line.c_str());
     ImGui::PopStyleColor();
     ImGui::PopTextWrapPos();
-    const float right = ImGui::GetWindowWidth() - view.px(172);
-    ImGui::SetCursorPos({right, view.px(8)});
-    if (ImGui::Button("Open another…")) view.act(Action::open_source);
-    ImGui::SameLine();
+    ImGui::SetCursorPos({ImGui::GetWindowWidth() - view.px(172), view.px(8)});
+    if (view.source.phase == SessionState::Phase::ended) {
+      if (ImGui::Button("Open another…")) view.act(Action::open_source);
+      ImGui::SameLine();
+    } else {
+      ImGui::SetCursorPosX(ImGui::GetWindowWidth() - view.px(12) - ImGui::GetFrameHeight());
+    }
     if (ImGui::Button("×")) gone = i;
     tip("Put this away");
     ImGui::EndChild();

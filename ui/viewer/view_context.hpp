@@ -10,6 +10,7 @@
 
 #include "ui/overlay_shapes.hpp"
 #include "ui/probe_panel.hpp"
+#include "ui/recording_session.hpp"
 #include "ui/session.hpp"
 #include "ui/shortcuts.hpp"
 #include "ui/stage_history.hpp"
@@ -36,6 +37,9 @@ struct ViewContext {
   Timeline timeline;
   StageHistory history;
   SaliencyWants wants;  ///< by-products that a panel needs; cleared before each frame
+
+  RecordingStatus recording;  ///< of the recording that runs, or of the last one
+  std::string snapshot;       ///< folder of the last snapshot; empty = there was none
 
   double busy_ms = 0, longest_ms = 0;  ///< what the window's last frame took to draw; the longest of all
 

@@ -93,9 +93,11 @@ void Viewer::take_news() {
     view_.history.add(record.times, record.latency_ms, record.at);
   }
   take_errors();
+  sidebar_.sensors().take_news(view_);
   for (const std::string& path : window_.take_dropped()) open(path);
   const bool live = view_.source.source.live && view_.source.phase == SessionState::Phase::open;
-  refresh_ = live || !view_.notice.empty() || ImGui::GetIO().WantTextInput ||
+  const bool recording = view_.recording.phase != RecordingStatus::Phase::idle;
+  refresh_ = live || recording || !view_.notice.empty() || ImGui::GetIO().WantTextInput ||
              view_.source.phase == SessionState::Phase::opening;
 }
 
@@ -258,6 +260,7 @@ void Viewer::send_wishes() {
 void Viewer::open(const std::string& uri) {
   OpenRequest request{uri, {}, options_.source.intrinsics, state_.tuning.a.sensor};
   if (uri == options_.source.uri) request.range = options_.source.range;
+  sidebar_.sensors().end_recording();  // a file is of one source
   session_.open(request);
   view_.result.reset();
   view_.timeline.reset(0);
@@ -303,6 +306,9 @@ void Viewer::log_frame(double busy_ms) {
       {"generation", generation_},
       {"window", {window.width, window.height}},
       {"processed", view_.source.ledger.processed},
+      {"recording", view_.recording.phase != RecordingStatus::Phase::idle},
+      {"recorded", {{"file", view_.recording.file.string()}, {"frames", view_.recording.frames}}},
+      {"snapshot", view_.snapshot},
       {"places", view_.places}};
   if (view_.result) {
     const Computed& shown = view_.result->a;
