@@ -53,6 +53,7 @@ struct ViewContext {
   std::function<void(ImDrawList&, const PicturePlace&)> over_picture;
 
   std::vector<std::string> errors;  ///< to be shown until they are put away; one line each
+  std::vector<std::string> notes;   ///< what is to be known of the source, until it is put away
   std::string notice;               ///< a short "done" line; goes by itself
   double notice_until = 0;          ///< ImGui's time
 
