@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -17,6 +18,35 @@ const cv::Scalar kMark(255, 255, 255), kFirstMark(80, 255, 80), kShadow(0, 0, 0)
 
 // Marks and lines grow with the picture: 1 at 640 pixels wide.
 double mark_size(const cv::Mat3b& picture) { return std::clamp(picture.cols / 640.0, 0.5, 4.0); }
+
+// Of each object the part of the picture that it is in, with room for the closing around it: one look at the
+// masks for all of them.
+std::vector<cv::Rect> object_boxes(const Attention& attention) {
+  constexpr int kRoom = 4;  // there and back by the brush's half
+  struct Extent {
+    int left = std::numeric_limits<int>::max(), right = -1, top = 0, bottom = -1;
+  };
+  std::vector<Extent> extents(attention.fixations.size());
+  for (int r = 0; r < attention.masks.rows; ++r) {
+    const std::uint16_t* ranks = attention.masks[r];
+    for (int c = 0; c < attention.masks.cols; ++c) {
+      if (ranks[c] == 0 || ranks[c] > extents.size()) continue;
+      Extent& e = extents[ranks[c] - 1U];
+      if (e.bottom < 0) e.top = r;
+      e.bottom = r;
+      e.left = std::min(e.left, c);
+      e.right = std::max(e.right, c);
+    }
+  }
+  std::vector<cv::Rect> boxes;
+  const cv::Rect whole({}, attention.masks.size());
+  for (const Extent& e : extents)
+    boxes.push_back(e.bottom < 0 ? cv::Rect()
+                                 : cv::Rect(cv::Point(e.left - kRoom, e.top - kRoom),
+                                            cv::Point(e.right + 1 + kRoom, e.bottom + 1 + kRoom)) &
+                                       whole);
+  return boxes;
+}
 
 void draw_outlines(cv::Mat3b& picture, const Attention& attention) {
   const int line = std::max(1, cvRound(mark_size(picture)));
@@ -59,12 +89,15 @@ std::vector<Outline> proto_outlines(const Attention& attention) {
   std::vector<Outline> outlines;
   if (attention.masks.empty()) return outlines;
   const cv::Mat brush = cv::getStructuringElement(cv::MORPH_ELLIPSE, {5, 5});
+  const std::vector<cv::Rect> boxes = object_boxes(attention);
   for (std::size_t rank = attention.fixations.size(); rank > 0; --rank) {
+    const cv::Rect& box = boxes[rank - 1];
+    if (box.empty()) continue;
     cv::Mat1b mask;
-    cv::compare(attention.masks, static_cast<double>(rank), mask, cv::CMP_EQ);
+    cv::compare(attention.masks(box), static_cast<double>(rank), mask, cv::CMP_EQ);
     cv::morphologyEx(mask, mask, cv::MORPH_CLOSE, brush);
     std::vector<std::vector<cv::Point>> contours;
-    cv::findContours(mask, contours, cv::RETR_EXTERNAL, cv::CHAIN_APPROX_SIMPLE);
+    cv::findContours(mask, contours, cv::RETR_EXTERNAL, cv::CHAIN_APPROX_SIMPLE, box.tl());
     for (auto& points : contours) outlines.push_back({rank, std::move(points)});
   }
   return outlines;

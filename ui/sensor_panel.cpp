@@ -58,6 +58,7 @@ void draw_buttons(const SensorFacts& facts, SensorActions& actions) {
 }
 
 void draw_written(const SensorFacts& facts) {
+  if (!facts.folder.empty()) wrapped_text("Files go to " + facts.folder, Tone::quiet);
   const Headline line = recording_line(facts.recording);
   if (!line.text.empty()) wrapped_text(line.text, line.tone);
   if (!facts.recording.file.empty()) wrapped_text(facts.recording.file.string(), Tone::quiet);

@@ -32,6 +32,7 @@ struct SensorFacts {
   std::vector<std::string> modes;                    ///< of the sensor that is open, as 640x480@30
   std::string mode;                                  ///< the one that is used
   SensorValues values;                               ///< of the sensor; all empty = it has no controls
+  std::string folder;                                ///< where recordings and snapshots go
   RecordingStatus recording;
   std::string snapshot;  ///< where the last one went, or that it is being written; empty = there was none
   std::string snapshot_error;

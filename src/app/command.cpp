@@ -6,6 +6,7 @@
 #include <spdlog/spdlog.h>
 
 #include "core/error.hpp"
+#include "models/model.hpp"
 #include "saliency/params.hpp"
 
 namespace saccade {
@@ -48,7 +49,7 @@ void fit_default_levels(Settings& settings, SourceInfo& source) {
 
 void fit_to_depth(Settings& settings, SourceInfo& source) {
   if (source.has_depth) return;
-  if (settings.model == "symmetry3d" || settings.model == "combined")
+  if (needs_depth(settings.model))
     throw usage_error(fmt::format("model {} needs depth, and there is none", settings.model), source.uri,
                       "choose a model of the image: --model symmetry2d, colour_symmetry2d, radial2d or itti");
   if (settings.selector != Selector::proto) return;

@@ -29,9 +29,10 @@ class Symmetry3dModel : public SaliencyModel {
 
 }  // namespace
 
+bool needs_depth(std::string_view model) { return model == "symmetry3d" || model == "combined"; }
+
 void check_model(const Settings& settings, cv::Size image) {
-  if (settings.model == "symmetry3d" || settings.model == "combined")
-    return check_levels(image, Symmetry3dParams::from(settings));
+  if (needs_depth(settings.model)) return check_levels(image, Symmetry3dParams::from(settings));
   for (const char* part : {"levels", "normals"})
     if (settings.dump.contains(part))
       throw usage_error(fmt::format("model {} has no {} to dump", settings.model, part),

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <string_view>
 
 #include "core/frame.hpp"
 #include "core/settings.hpp"
@@ -21,6 +22,9 @@ class SaliencyModel {
   /// like this one.
   virtual void compute(const Frame& frame, SaliencyWants wants, SaliencyMaps& maps, StageTimes& times) = 0;
 };
+
+/// Whether the model sees nothing where there is no depth.
+bool needs_depth(std::string_view model);
 
 /// Throws Error (usage) if the settings do not fit images of this size (symmetry3d and combined: see
 /// check_levels()) or ask to dump by-products that the model does not have.

@@ -1,5 +1,6 @@
 #include "ui/cloud_renderer.hpp"
 
+#include <cstdlib>
 #include <memory>
 
 #include <epoxy/gl.h>
@@ -7,20 +8,26 @@
 #include <GLFW/glfw3.h>
 #include <gtest/gtest.h>
 
+#include "x_server.hpp"
+
 namespace saccade {
 namespace {
 
-// An OpenGL 3.3 context without a visible window; the tests are skipped where there is no display.
+// An OpenGL 3.3 context on a display of its own; the tests are skipped where Xvfb is missing.
 class CloudRendererTest : public ::testing::Test {
  protected:
   void SetUp() override {
-    if (glfwInit() != GLFW_TRUE) GTEST_SKIP() << "no display: run under xvfb-run";
+    if (!is_installed("Xvfb")) GTEST_SKIP() << "Xvfb is not installed";
+    ASSERT_TRUE(server_.start()) << "Xvfb did not start";
+    ::setenv("DISPLAY", server_.display().c_str(), 1);
+    ::setenv("LIBGL_ALWAYS_SOFTWARE", "1", 1);
+    ASSERT_EQ(glfwInit(), GLFW_TRUE);
     glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);
     glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
     glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
     glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
     window_ = glfwCreateWindow(64, 64, "test", nullptr, nullptr);
-    if (window_ == nullptr) GTEST_SKIP() << "no OpenGL 3.3";
+    ASSERT_NE(window_, nullptr) << "no OpenGL 3.3";
     glfwMakeContextCurrent(window_);
     renderer_ = std::make_unique<CloudRenderer>();
   }
@@ -42,6 +49,7 @@ class CloudRendererTest : public ::testing::Test {
     return upright;
   }
 
+  XServer server_;
   GLFWwindow* window_ = nullptr;
   std::unique_ptr<CloudRenderer> renderer_;
 };

@@ -29,6 +29,41 @@ TEST_F(OverlayTest, LeavesWhatIsNotSalientAsItWas) {
   EXPECT_EQ(frame_.colour(60, 80), cv::Vec3b(40, 50, 60)) << "the frame itself is not drawn on";
 }
 
+// Every object alone in a mask of the whole picture, closed and followed.
+std::vector<Outline> slow_outlines(const Attention& attention) {
+  std::vector<Outline> outlines;
+  const cv::Mat brush = cv::getStructuringElement(cv::MORPH_ELLIPSE, {5, 5});
+  for (std::size_t rank = attention.fixations.size(); rank > 0; --rank) {
+    cv::Mat1b mask;
+    cv::compare(attention.masks, static_cast<double>(rank), mask, cv::CMP_EQ);
+    cv::morphologyEx(mask, mask, cv::MORPH_CLOSE, brush);
+    std::vector<std::vector<cv::Point>> contours;
+    cv::findContours(mask, contours, cv::RETR_EXTERNAL, cv::CHAIN_APPROX_SIMPLE);
+    for (auto& points : contours) outlines.push_back({rank, std::move(points)});
+  }
+  return outlines;
+}
+
+TEST_F(OverlayTest, OutlinesAreThoseOfTheWholeMasks) {
+  cv::RNG random(7);
+  for (int round = 0; round < 20; ++round) {
+    attention_.fixations.assign(6, attention_.fixations.front());
+    attention_.masks.setTo(0);
+    for (int i = 0; i < 40; ++i) {  // objects of parts, some at the rim; rank 6 has none, 7 no fixation
+      const cv::Rect part(random.uniform(-10, 150), random.uniform(-10, 110), random.uniform(1, 25),
+                          random.uniform(1, 25));
+      const int rank = random.uniform(0, 7);
+      attention_.masks(part & cv::Rect(0, 0, 160, 120)) = static_cast<std::uint16_t>(rank == 6 ? 7 : rank);
+    }
+    const std::vector<Outline> expected = slow_outlines(attention_), found = proto_outlines(attention_);
+    ASSERT_EQ(found.size(), expected.size());
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      EXPECT_EQ(found[i].rank, expected[i].rank);
+      EXPECT_EQ(found[i].points, expected[i].points);
+    }
+  }
+}
+
 TEST_F(OverlayTest, MarksFixationsOutlinesObjectsAndColoursTheMap) {
   saliency_(100, 140) = 2;
   const cv::Mat3b picture = draw_overlay(frame_, saliency_, attention_);

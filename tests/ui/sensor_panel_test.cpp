@@ -116,6 +116,7 @@ TEST_F(SensorPanelTest, LongTextsAreWrapped) {
   facts_.source.connection.losses = 2;
   facts_.recording.file = "a.oni";
   facts_.recording.error = "cannot write: No space left on device: a.oni (free some space on this disk)";
+  facts_.folder = "/home/somebody/a folder/with a long name";
   facts_.snapshot = "snapshot in /home/somebody/a folder/with a long name/snapshot-20260101-120000";
   facts_.devices_error = "cannot start OpenNI2: no drivers (reinstall the package libopenni2-0)";
   draw();

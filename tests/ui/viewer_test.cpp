@@ -1,6 +1,9 @@
 // The viewer as a person uses it.
 #include <algorithm>
 #include <chrono>
+#include <cstdlib>
+#include <filesystem>
+#include <set>
 #include <thread>
 
 #include <opencv2/imgproc.hpp>
@@ -39,6 +42,36 @@ class ViewerTest : public XProgramTest {
     hand("keydown ctrl keydown a sleep 0.5 keyup a keyup ctrl");
     hand("type --delay 60 " + uri);
     hand("keydown Return sleep 0.5 keyup Return");
+  }
+
+  // Records until so many frames are written; the file, which is a whole recording.
+  std::filesystem::path record_and_check(int frames) const {
+    hand("key r");
+    EXPECT_TRUE(
+        until([&](const Json& j) { return j["recording"] == true && j["recorded"]["frames"] >= frames; }));
+    hand("key r");
+    EXPECT_TRUE(until([](const Json& j) { return j["recording"] == false; }));
+    const Json recorded = now()["recorded"];
+    const std::filesystem::path file = recorded["file"].get<std::string>();
+    EXPECT_EQ(file.parent_path(), std::filesystem::canonical(folder_));
+    EXPECT_EQ(std::system(
+                  (std::string(SACCADE_PROGRAM) + " oni check '" + file.string() + "' >'" + in("check") + "'")
+                      .c_str()),
+              0);
+    OniSource source(file);
+    EXPECT_EQ(source.info().frame_count, recorded["frames"].get<std::int64_t>());
+    EXPECT_EQ(source.info().size, cv::Size(640, 480));
+    Frame frame;
+    EXPECT_EQ(source.read(frame, std::chrono::milliseconds(0)).status, ReadStatus::frame);
+    EXPECT_GT(cv::countNonZero(frame.depth_mm), 640 * 480 / 4);
+    EXPECT_FALSE(frame.colour.empty());
+    return file;
+  }
+
+  std::filesystem::path take_snapshot() const {
+    hand("key s");
+    EXPECT_TRUE(until([](const Json& j) { return j["snapshot"] != ""; }));
+    return now()["snapshot"].get<std::string>();
   }
 
   static double likeness(const cv::Mat3b& a, const cv::Mat3b& b) {
@@ -113,6 +146,35 @@ TEST_F(ViewerTest, PlaysTunesComparesAndQuits) {
   start({});
   EXPECT_EQ(now()["model"], "combined") << "what was set is there again";
   EXPECT_EQ(now()["comparison"], 2);
+}
+
+// Keys, as a person who keeps what is seen presses them, and what is then in the folder.
+TEST_F(ViewerTest, RecordsAndTakesSnapshots) {
+  start({kTable});
+  record_and_check(8);
+  const std::filesystem::path snapshot = take_snapshot();
+  std::set<std::string> kinds;
+  for (const auto& entry : std::filesystem::directory_iterator(snapshot)) {
+    const std::string name = entry.path().filename();
+    kinds.insert(name.substr(name.find('_')));
+    if (name.ends_with("overlay.png")) {
+      EXPECT_EQ(decode_png(read_file(entry.path())).size(), cv::Size(640, 480));
+    }
+  }
+  EXPECT_EQ(kinds,
+            (std::set<std::string>{"_fixations.json", "_overlay.png", "_saliency.png", "_saliency.tiff"}));
+  EXPECT_TRUE(now()["errors"].empty());
+}
+
+TEST_F(ViewerTest, RecordsASensorAndPlaysItAgain) {
+  ::setenv("SACCADE_VIRTUAL_DEVICE", "synthetic:table?noise=kinect&frames=90", 1);
+  start({"openni2"});
+  ::unsetenv("SACCADE_VIRTUAL_DEVICE");
+  const std::filesystem::path file = record_and_check(5);
+  type_source(file.string());
+  EXPECT_TRUE(until([&](const Json& j) { return j["source"] == file.string() && j["shown"]["index"] == 3; }))
+      << "the recording is played";
+  EXPECT_TRUE(now()["errors"].empty());
 }
 
 TEST_F(ViewerTest, AnErrorLeavesTheWindowAlive) {

@@ -5,7 +5,6 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <array>
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
@@ -21,10 +20,6 @@ using Json = nlohmann::json;
 
 constexpr auto kPatience = std::chrono::seconds(60);
 
-bool is_installed(const char* program) {
-  return std::system((std::string("command -v ") + program + " >/dev/null").c_str()) == 0;
-}
-
 int exit_status(pid_t child) {
   int status = 0;
   ::waitpid(child, &status, 0);
@@ -36,37 +31,21 @@ int exit_status(pid_t child) {
 void XProgramTest::SetUp() {
   for (const char* program : {"Xvfb", "xdotool"})
     if (!is_installed(program)) GTEST_SKIP() << program << " is not installed";
-  std::array<int, 2> ends{};
-  ASSERT_EQ(::pipe(ends.data()), 0);
-  server_ = ::fork();
-  if (server_ == 0) {
-    ::dup2(ends[1], 3);
-    const int null = ::open("/dev/null", O_WRONLY);
-    ::dup2(null, STDERR_FILENO);
-    ::execlp("Xvfb", "Xvfb", "-displayfd", "3", "-screen", "0", "1920x1200x24", nullptr);
-    ::_exit(127);
-  }
-  ::close(ends[1]);
-  char c = 0;  // the server writes its number when it is ready
-  while (::read(ends[0], &c, 1) == 1 && c != '\n') display_ += c;
-  ::close(ends[0]);
-  ASSERT_FALSE(display_.empty()) << "Xvfb did not start";
-  display_ = ":" + display_;
+  ASSERT_TRUE(server_.start()) << "Xvfb did not start";
 }
 
 XProgramTest::~XProgramTest() {
-  for (const pid_t child : {program_, server_})
-    if (child > 0) {
-      ::kill(child, SIGTERM);
-      exit_status(child);
-    }
+  if (program_ <= 0) return;
+  ::kill(program_, SIGTERM);
+  exit_status(program_);
 }
 
 pid_t XProgramTest::spawn(const std::vector<std::string>& words, bool display) const {
   const pid_t child = ::fork();
   if (child != 0) return child;
+  std::filesystem::current_path(folder_);  // what it writes goes there
   if (display)
-    ::setenv("DISPLAY", display_.c_str(), 1);
+    ::setenv("DISPLAY", server_.display().c_str(), 1);
   else
     ::unsetenv("DISPLAY");
   ::unsetenv("WAYLAND_DISPLAY");
@@ -120,7 +99,7 @@ Json XProgramTest::now() const {
 }
 
 void XProgramTest::hand(const std::string& words) const {
-  const std::string command = "DISPLAY=" + display_ + " xdotool " + words;
+  const std::string command = "DISPLAY=" + server_.display() + " xdotool " + words;
   EXPECT_EQ(std::system(command.c_str()), 0) << command;
 }
 

@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/folder_test.hpp"
+#include "x_server.hpp"
 
 namespace saccade {
 
@@ -22,7 +23,8 @@ class XProgramTest : public FolderTest {
   void SetUp() override;
   ~XProgramTest() override;
 
-  /// Starts `saccade view` with these arguments and the log; a minute for its first frame.
+  /// Starts `saccade view`, in the test's folder, with these arguments and the log; a minute for its first
+  /// frame.
   void start(const std::vector<std::string>& arguments);
 
   /// Starts the program and waits for its end; the exit status. `display` = false: without any.
@@ -50,8 +52,8 @@ class XProgramTest : public FolderTest {
   pid_t spawn(const std::vector<std::string>& words, bool display) const;
   std::pair<int, int> place_of(const std::string& place, double across) const;
 
-  pid_t server_ = -1, program_ = -1;
-  std::string display_;
+  XServer server_;
+  pid_t program_ = -1;
 };
 
 }  // namespace saccade

@@ -146,6 +146,12 @@ void Viewer::act_on_window(Action action) {
     case Action::open_source:
       open_dialog_.show();
       break;
+    case Action::snapshot:
+      sidebar_.sensors().snapshot(view_);
+      break;
+    case Action::record:
+      sidebar_.sensors().toggle_recording(view_);
+      break;
     case Action::show_help:
       help_ = true;
       break;

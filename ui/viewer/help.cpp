@@ -15,6 +15,7 @@ void draw_help(ViewContext& view, bool& open) {
     return;
   if (ImGui::BeginTable("groups", 2, ImGuiTableFlags_None)) {
     std::string_view group;
+    const float left = ImGui::GetStyle().WindowPadding.x;  // SameLine() counts from the column
     const auto list = shortcuts();
     ImGui::TableNextColumn();
     for (std::size_t i = 0; i < list.size(); ++i) {
@@ -31,7 +32,6 @@ void draw_help(ViewContext& view, bool& open) {
       std::string keys = key_name(s);
       for (std::size_t k = i + 1; k < list.size() && list[k].action == s.action; ++k)
         keys += "  " + key_name(list[k]);
-      const float left = ImGui::GetCursorPosX();
       ImGui::TextColored(as_vec4(view.colours->accent), "%s", keys.c_str());
       ImGui::SameLine(left + view.px(150));
       ImGui::TextUnformatted(s.text.data(), s.text.data() + s.text.size());

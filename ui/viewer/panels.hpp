@@ -63,6 +63,8 @@ class PicturePanel {
   ~PicturePanel();
   void draw(ViewContext& view);
   void fit();
+  /// Another source is opened.
+  void forget();
 
  private:
   struct Layers;

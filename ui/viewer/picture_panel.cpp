@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 
 #include <fmt/format.h>
 #include <imgui.h>
@@ -101,7 +102,8 @@ struct PicturePanel::Layers {
     MapStyle style;
   };
   Texture background;
-  std::int64_t serial = 0;
+  std::optional<std::int64_t> index;  // of the background's frame
+  std::int64_t timestamp_us = 0;
   Background background_style = Background::colour;
   DepthStyle depth_style;
   Map a, b;
@@ -109,9 +111,13 @@ struct PicturePanel::Layers {
   bool dragging = false, dragging_divider = false;
 
   void update_background(const ViewResult& result, const OverlayStyle& style) {
-    if (serial == result.serial && background_style == style.background && depth_style == style.depth) return;
-    background.upload(draw_background(result.frame(), style));
-    serial = result.serial;
+    const Frame& frame = result.frame();  // the same one comes again when only the settings change
+    if (index == frame.index && timestamp_us == frame.timestamp_us && background_style == style.background &&
+        depth_style == style.depth)
+      return;
+    background.upload(draw_background(frame, style));
+    index = frame.index;
+    timestamp_us = frame.timestamp_us;
     background_style = style.background;
     depth_style = style.depth;
   }
@@ -135,6 +141,11 @@ PicturePanel::PicturePanel() : layers_(std::make_unique<Layers>()) {}
 PicturePanel::~PicturePanel() = default;
 
 void PicturePanel::fit() { layers_->view.fit(); }
+
+void PicturePanel::forget() {
+  layers_->view.fit();
+  layers_->index.reset();
+}
 
 void PicturePanel::draw(ViewContext& view) {
   const ImVec2 corner = ImGui::GetCursorScreenPos(), size = ImGui::GetContentRegionAvail();

@@ -1,5 +1,9 @@
 #include "ui/viewer/sensor_section.hpp"
 
+#include <unistd.h>
+
+#include <cstdlib>
+
 #include <fmt/format.h>
 
 #include "core/error.hpp"
@@ -25,9 +29,16 @@ std::string mode_text(const SourceInfo& source) {
   return fmt::format("{}x{}@{:.0f}", source.size.width, source.size.height, source.rate_hz);
 }
 
+std::filesystem::path folder_for_files() {
+  const std::filesystem::path here = std::filesystem::current_path();
+  const char* home = std::getenv("HOME");
+  return ::access(here.c_str(), W_OK) != 0 && home != nullptr ? home : here;
+}
+
 }  // namespace
 
-SensorSection::SensorSection() : devices_(connected_sensors, [] { Window::wake(); }) {}
+SensorSection::SensorSection()
+    : folder_(folder_for_files()), devices_(connected_sensors, [] { Window::wake(); }) {}
 
 SensorSection::~SensorSection() {
   if (tapped_ != nullptr) tapped_->set_tap({});
@@ -35,26 +46,43 @@ SensorSection::~SensorSection() {
 
 void SensorSection::toggle_recording(ViewContext& view) {
   using Phase = RecordingStatus::Phase;
+  const Phase phase = recording_->status().phase;
+  if (phase == Phase::recording) return end_recording();
+  if (phase != Phase::idle || view.source.phase != SessionState::Phase::open) return;
   tapped_ = &view.session.playback();
-  if (recording_->status().phase == Phase::recording) {
-    tapped_->set_tap({});
-    recording_->stop();
-    return;
-  }
-  if (recording_->status().phase != Phase::idle || view.source.phase != SessionState::Phase::open) return;
   OniWriterOptions options;
   options.rate_hz = view.source.source.rate_hz;
   options.expect_colour = view.source.source.live;
-  recording_error_.clear();
+  const auto file = unused_path(folder_, "recording", ".oni", std::chrono::system_clock::now());
   try {
-    recording_->start(unused_path(folder_, "recording", ".oni", std::chrono::system_clock::now()), options);
+    recording_->start(file, options);
     tapped_->set_tap([recording = recording_](const Frame& frame) { recording->offer(frame); });
+    recording_told_ = false;
+    view.tell("Recording to " + file.string() +
+              (view.playback.paused ? "; paused, so no frames come yet" : ""));
   } catch (const Error& error) {
-    recording_error_ = error.what();
+    view.errors.emplace_back(error.what());
   }
 }
 
-void SensorSection::snapshot(const ViewContext& view) {
+void SensorSection::end_recording() {
+  if (tapped_ != nullptr) tapped_->set_tap({});
+  recording_->stop();
+}
+
+void SensorSection::take_news(ViewContext& view) {
+  take_snapshot_result(view);
+  view.recording = recording_->status();
+  if (recording_told_ || view.recording.phase != RecordingStatus::Phase::idle) return;
+  recording_told_ = true;
+  end_recording();  // it may have ended by itself
+  if (view.recording.error.empty())
+    view.tell(fmt::format("Recorded {} frames: {}", view.recording.frames, view.recording.file.string()));
+  else
+    view.errors.push_back(view.recording.error);
+}
+
+void SensorSection::snapshot(ViewContext& view) {
   if (!view.result || writing_.valid()) return;
   snapshot_ = "writing the snapshot ...";
   snapshot_error_.clear();
@@ -68,13 +96,16 @@ void SensorSection::snapshot(const ViewContext& view) {
   });
 }
 
-void SensorSection::take_snapshot_result() {
+void SensorSection::take_snapshot_result(ViewContext& view) {
   if (!writing_.valid() || writing_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
   snapshot_.clear();
   try {
-    snapshot_ = "snapshot in " + writing_.get().string();
+    view.snapshot = writing_.get().string();
+    snapshot_ = "snapshot in " + view.snapshot;
+    view.tell("Snapshot: " + view.snapshot);
   } catch (const std::exception& error) {
     snapshot_error_ = error.what();
+    view.errors.push_back(snapshot_error_);
   }
 }
 
@@ -107,15 +138,14 @@ SensorFacts SensorSection::facts(const ViewContext& view) {
     facts.mode = mode_text(session.source);
     facts.values = view.session.sensor_values();
   }
-  facts.recording = recording_->status();
-  if (!recording_error_.empty()) facts.recording.error = recording_error_;
+  facts.folder = folder_.string();
+  facts.recording = view.recording;
   facts.snapshot = snapshot_;
   facts.snapshot_error = snapshot_error_;
   return facts;
 }
 
 void SensorSection::draw(ViewContext& view) {
-  take_snapshot_result();
   const SensorActions actions = draw_sensor_panel(facts(view), std::chrono::steady_clock::now());
   if (actions.toggle_recording) toggle_recording(view);
   if (actions.snapshot) snapshot(view);

@@ -15,7 +15,8 @@
 
 namespace saccade {
 
-/// Sensors, recording and snapshots in the side bar. Files go to the folder in which the program was started.
+/// Sensors, recording and snapshots in the side bar. Files go to the folder in which the program was started,
+/// or to the user's own where that cannot be written.
 class SensorSection {
  public:
   SensorSection();
@@ -27,15 +28,20 @@ class SensorSection {
   void set_open(bool open) { devices_.set_active(open); }
   void draw(ViewContext& view);
 
+  /// Tells what became of recordings and snapshots. Each frame, whether the section is seen or not.
+  void take_news(ViewContext& view);
+
   void toggle_recording(ViewContext& view);
-  void snapshot(const ViewContext& view);
+  /// Ends a recording: its source is to be closed.
+  void end_recording();
+  void snapshot(ViewContext& view);
 
  private:
   SensorFacts facts(const ViewContext& view);
-  void take_snapshot_result();
+  void take_snapshot_result(ViewContext& view);
   double captured_rate_hz(const Ledger& ledger);
 
-  const std::filesystem::path folder_ = std::filesystem::current_path();
+  const std::filesystem::path folder_;
   // Shared with the capture thread, which may still be in it when a recording or the viewer ends.
   const std::shared_ptr<RecordingSession> recording_ = std::make_shared<RecordingSession>();
   Playback* tapped_ = nullptr;
@@ -46,7 +52,8 @@ class SensorSection {
   };
   std::deque<Captured> captured_;               // of the last two seconds
   std::future<std::filesystem::path> writing_;  // the snapshot on its way to the disk
-  std::string snapshot_, snapshot_error_, recording_error_;
+  std::string snapshot_, snapshot_error_;
+  bool recording_told_ = true;  // how the last one ended
 };
 
 }  // namespace saccade

@@ -82,6 +82,13 @@ void draw_top_bar(ViewContext& view) {
   ImGui::TextUnformatted(source_line(view).c_str());
   ImGui::PopStyleColor();
   tip(view.source.connection.text);
+  if (view.recording.phase == RecordingStatus::Phase::recording) {
+    const auto s = static_cast<int>(view.recording.seconds);
+    ImGui::SameLine(0, view.px(14));
+    ImGui::TextColored(as_vec4(view.colours->error), "%s",
+                       fmt::format("Recording {}:{:02}", s / 60, s % 60).c_str());
+    tip(view.recording.file.string());
+  }
   ImGui::PopClipRect();
 
   ImGui::SameLine(name_right + gap);

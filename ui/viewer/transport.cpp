@@ -24,6 +24,20 @@ void draw_speed(ViewContext& view) {
   tip(with_key("Speed", Action::slower) + ", " + key_name(Action::faster));
 }
 
+// Recording and snapshot.
+void draw_keeping(ViewContext& view) {
+  const bool recording = view.recording.phase == RecordingStatus::Phase::recording;
+  ImGui::SameLine(0, view.px(10));
+  if (icon_button(view, "##record", Icon::record, recording,
+                  with_key(recording ? "Stop recording" : "Record to an .oni file", Action::record)))
+    view.act(Action::record);
+  note_place(view, "record");
+  ImGui::SameLine(0, view.px(3));
+  if (icon_button(view, "##snapshot", Icon::camera, false,
+                  with_key("Snapshot: overlay, saliency map and fixations", Action::snapshot)))
+    view.act(Action::snapshot);
+}
+
 void draw_buttons(ViewContext& view) {
   const bool paused = view.playback.paused, live = view.source.source.live;
   const float gap = view.px(3);
@@ -39,7 +53,10 @@ void draw_buttons(ViewContext& view) {
                   with_key(paused ? "Play" : "Pause", Action::play_pause)))
     view.act(Action::play_pause);
   note_place(view, "play");
-  if (live) return;
+  if (live) {
+    draw_keeping(view);
+    return;
+  }
   ImGui::SameLine(0, gap);
   if (icon_button(view, "##on", Icon::step_on, false, with_key("One frame on", Action::step_on)))
     view.act(Action::step_on);
@@ -50,6 +67,7 @@ void draw_buttons(ViewContext& view) {
   if (icon_button(view, "##loop", Icon::loop, view.playback.loop,
                   with_key(view.playback.loop ? "Loop is on" : "Loop is off", Action::toggle_loop)))
     view.act(Action::toggle_loop);
+  draw_keeping(view);
   ImGui::SameLine(0, view.px(10));
   draw_speed(view);
 }

@@ -10,6 +10,7 @@
 
 #include "ui/overlay_shapes.hpp"
 #include "ui/probe_panel.hpp"
+#include "ui/recording_session.hpp"
 #include "ui/session.hpp"
 #include "ui/shortcuts.hpp"
 #include "ui/stage_history.hpp"
@@ -37,6 +38,9 @@ struct ViewContext {
   StageHistory history;
   SaliencyWants wants;  ///< by-products that a panel needs; cleared before each frame
 
+  RecordingStatus recording;  ///< of the recording that runs, or of the last one
+  std::string snapshot;       ///< folder of the last snapshot; empty = there was none
+
   double busy_ms = 0, longest_ms = 0;  ///< what the window's last frame took to draw; the longest of all
 
   double unit = 1;  ///< pixels of ImGui for one of a screen of usual density
@@ -49,6 +53,7 @@ struct ViewContext {
   std::function<void(ImDrawList&, const PicturePlace&)> over_picture;
 
   std::vector<std::string> errors;  ///< to be shown until they are put away; one line each
+  std::vector<std::string> notes;   ///< what is to be known of the source, until it is put away
   std::string notice;               ///< a short "done" line; goes by itself
   double notice_until = 0;          ///< ImGui's time
 

@@ -15,7 +15,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr int kFramesAfterEvent = 3;  // ImGui's layout settles with the second, hovering with the third
-constexpr double kSlowRefresh_s = 0.25, kIdle_s = 60;
+constexpr double kSlowRefresh_s = 0.25, kIdle_s = 60, kSettling_s = 0.03;
 
 bool same_wishes(const Wishes& x, const Wishes& y) {
   return same_settings(x.a, y.a) && x.b.has_value() == y.b.has_value() &&
@@ -52,12 +52,16 @@ Viewer::Viewer(ViewState state, ViewerOptions options, Session::Open open_functi
 
 void Viewer::run() {
   while (!window_.should_close()) {
-    window_.wait(frames_due_ > 0 ? 0 : idle_s());
+    // Drawing that only settles the layout must not take the processor from the result that is awaited.
+    window_.wait(frames_due_ == 0 ? idle_s() : awaits_result() ? kSettling_s : 0);
     const auto begin = Clock::now();
     if (stopped_) window_.close();
     const bool event = window_.take_event();
-    if (woken_.exchange(false) || event)
+    const bool woken = woken_.exchange(false);
+    if (event)
       frames_due_ = kFramesAfterEvent;
+    else if (woken)
+      frames_due_ = std::max(frames_due_, view_.playback.paused ? kFramesAfterEvent : 1);
     else if (refresh_)
       frames_due_ = std::max(frames_due_, 1);
     take_news();
@@ -72,6 +76,7 @@ void Viewer::run() {
     log_frame(busy_ms);
   }
   state_.window = window_.size();
+  fit_.restore(state_.tuning);
 }
 
 void Viewer::stop() noexcept {
@@ -80,6 +85,12 @@ void Viewer::stop() noexcept {
 }
 
 double Viewer::idle_s() const { return refresh_ ? kSlowRefresh_s : kIdle_s; }
+
+// A wish was sent and what it makes of the frame is on its way.
+bool Viewer::awaits_result() const {
+  return view_.source.phase == SessionState::Phase::open && view_.result &&
+         view_.result->generation < generation_;
+}
 
 // What the session has for us; cheap, and done while the window is hidden too.
 void Viewer::take_news() {
@@ -93,9 +104,12 @@ void Viewer::take_news() {
     view_.history.add(record.times, record.latency_ms, record.at);
   }
   take_errors();
+  fit_to_source();
+  sidebar_.sensors().take_news(view_);
   for (const std::string& path : window_.take_dropped()) open(path);
   const bool live = view_.source.source.live && view_.source.phase == SessionState::Phase::open;
-  refresh_ = live || !view_.notice.empty() || ImGui::GetIO().WantTextInput ||
+  const bool recording = view_.recording.phase != RecordingStatus::Phase::idle;
+  refresh_ = live || recording || !view_.notice.empty() || ImGui::GetIO().WantTextInput ||
              view_.source.phase == SessionState::Phase::opening;
 }
 
@@ -113,6 +127,12 @@ void Viewer::take_errors() {
   if (!options_.screenshot.empty()) throw failed("no screenshot", error, "");
   told_error_ = error;
   view_.errors.push_back(error);
+}
+
+void Viewer::fit_to_source() {
+  if (fitted_ || view_.source.phase != SessionState::Phase::open) return;
+  fitted_ = true;
+  view_.notes = fit_.fit(state_.tuning, view_.source.source);
 }
 
 void Viewer::scale_ui() {
@@ -258,15 +278,18 @@ void Viewer::send_wishes() {
 void Viewer::open(const std::string& uri) {
   OpenRequest request{uri, {}, options_.source.intrinsics, state_.tuning.a.sensor};
   if (uri == options_.source.uri) request.range = options_.source.range;
+  sidebar_.sensors().end_recording();  // a file is of one source
   session_.open(request);
   view_.result.reset();
   view_.timeline.reset(0);
   view_.history.clear();
   view_.errors.clear();
+  view_.notes.clear();
+  fitted_ = false;
   told_error_.clear();
   if (!uri.empty()) remember_source(state_, uri);
   window_.set_title("Saccade: " + uri);
-  picture_.fit();
+  picture_.forget();
   cloud_.fit();
   frames_due_ = kFramesAfterEvent;
 }
@@ -293,6 +316,7 @@ void Viewer::log_frame(double busy_ms) {
       {"source", view_.source.uri},
       {"phase", static_cast<int>(view_.source.phase)},
       {"errors", view_.errors},
+      {"notes", view_.notes},
       {"paused", view_.playback.paused},
       {"position", view_.playback.position},
       {"speed", view_.playback.speed},
@@ -303,6 +327,9 @@ void Viewer::log_frame(double busy_ms) {
       {"generation", generation_},
       {"window", {window.width, window.height}},
       {"processed", view_.source.ledger.processed},
+      {"recording", view_.recording.phase != RecordingStatus::Phase::idle},
+      {"recorded", {{"file", view_.recording.file.string()}, {"frames", view_.recording.frames}}},
+      {"snapshot", view_.snapshot},
       {"places", view_.places}};
   if (view_.result) {
     const Computed& shown = view_.result->a;

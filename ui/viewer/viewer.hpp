@@ -8,6 +8,7 @@
 #include <string>
 
 #include "core/file.hpp"
+#include "ui/source_fit.hpp"
 #include "ui/viewer/cloud_view.hpp"
 #include "ui/viewer/panels.hpp"
 #include "ui/viewer/view_context.hpp"
@@ -43,8 +44,10 @@ class Viewer {
 
  private:
   double idle_s() const;
+  bool awaits_result() const;
   void take_news();
   void take_errors();
+  void fit_to_source();
   void draw_frame();
   void draw_window();
   void draw_body(float height);
@@ -70,6 +73,8 @@ class Viewer {
   Session session_;
   ViewContext view_;
   SettingsHistory history_;
+  SourceFit fit_;
+  bool fitted_ = false;  // to the source that is open
   PicturePanel picture_;
   CloudView cloud_;
   Sidebar sidebar_;

@@ -40,6 +40,13 @@ void draw_icon(ImDrawList& draw, Icon icon, ImVec2 c, float r, unsigned colour) 
       draw.AddTriangleFilled({c.x + r * 0.25F, c.y - r * 0.35F}, {c.x + r * 1.15F, c.y - r * 0.25F},
                              {c.x + r * 0.8F, c.y - r * 1.1F}, colour);
       return;
+    case Icon::record:
+      return draw.AddCircleFilled(c, r * 0.9F, colour);
+    case Icon::camera:
+      draw.AddRectFilled({c.x - r * 0.45F, c.y - r}, {c.x + r * 0.45F, c.y}, colour, r * 0.2F);
+      draw.AddRect({c.x - r * 1.2F, c.y - r * 0.6F}, {c.x + r * 1.2F, c.y + r * 0.9F}, colour, r * 0.25F, 0,
+                   r * 0.3F);
+      return draw.AddCircle({c.x, c.y + r * 0.15F}, r * 0.4F, colour, 0, r * 0.28F);
   }
 }
 
@@ -51,7 +58,9 @@ bool icon_button(ViewContext& view, const char* id, Icon icon, bool lit, const s
   const bool pressed = ImGui::Button(id, {side * 1.15F, side});
   const ThemeColours& c = *view.colours;
   draw_icon(*ImGui::GetWindowDrawList(), icon, {corner.x + side * 0.575F, corner.y + side / 2}, side * 0.22F,
-            lit ? c.accent : c.text);
+            !lit                   ? c.text
+            : icon == Icon::record ? c.error
+                                   : c.accent);
   tip(text);
   return pressed;
 }

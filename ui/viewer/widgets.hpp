@@ -13,7 +13,7 @@
 namespace saccade {
 
 /// Icons that are drawn, so that no font has to have them.
-enum class Icon { play, pause, step_back, step_on, loop, first, last };
+enum class Icon { play, pause, step_back, step_on, loop, first, last, record, camera };
 
 /// A square button of one frame's height; `lit` marks one that is switched on.
 bool icon_button(ViewContext& view, const char* id, Icon icon, bool lit, const std::string& tip);
