@@ -39,6 +39,7 @@ void draw_notes(ViewContext& view) {
 
 // Each error stays until it is put away; the rest of the window lives on.
 void draw_errors(ViewContext& view) {
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {view.px(12), view.px(8)});
   draw_notes(view);
   int gone = -1;
   for (int i = 0; i < static_cast<int>(view.errors.size()); ++i) {
@@ -68,6 +69,7 @@ void draw_errors(ViewContext& view) {
     ImGui::PopStyleColor();
     ImGui::PopID();
   }
+  ImGui::PopStyleVar();
   if (gone >= 0) view.errors.erase(view.errors.begin() + gone);
 }
 

@@ -203,7 +203,8 @@ void Viewer::draw_window() {
 }
 
 void Viewer::draw_body(float height) {
-  const float transport = ImGui::GetFrameHeight() + ImGui::GetFontSize() + view_.px(34 + 16 + 7 + 4);
+  const float timeline = view_.source.source.live ? 0 : ImGui::GetFontSize() + view_.px(34 + 7 + 4);
+  const float transport = ImGui::GetFrameHeight() + view_.px(16) + timeline;
   const float before = ImGui::GetCursorPosY();
   draw_errors(view_);
   const float errors = ImGui::GetCursorPosY() - before;
