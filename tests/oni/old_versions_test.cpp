@@ -9,9 +9,10 @@ using Bytes = std::vector<std::uint8_t>;
 constexpr std::size_t kFileHeader = 24, kRecordHeader = 28, kNarrowHeader = 24, kNameLength = 28;
 
 // A NODE_ADDED of today is its name, type and codec, then u32 frames, two u64 times and a u64 position.
+// How many of these bytes an old program wrote, but for the position.
 std::size_t node_fields(const Bytes& file, std::size_t at, std::uint32_t build) {
   const std::size_t first = 4 + load_le<std::uint32_t>(&file[at + kNameLength]) + 8;
-  return build == 4 ? first : build == 5 ? first + 20 : first + 24;
+  return build == 4 ? first : first + 20;
 }
 
 // Rewrites a file of today as a program of old would have written it (sections 2 and 8 of the format):
@@ -35,14 +36,11 @@ Bytes as_written_by(std::uint32_t build, const Bytes& file) {
               : build == 5 ? OniRecordType::node_added_1005
                            : OniRecordType::node_added);
       out.put_bytes(std::span(file).subspan(at + 8, 4));
-      out.put(static_cast<std::uint32_t>(kNarrowHeader + kept));
+      out.put(static_cast<std::uint32_t>(kNarrowHeader + kept + (node && build == 6 ? 4 : 0)));
       out.put(static_cast<std::uint32_t>(payload));
       out.put(std::uint32_t{0});
       out.put_bytes(std::span(file).subspan(at + kRecordHeader, kept));
-      if (node && build == 6) {  // the position, in 32 bits, of a table that is not there
-        out.cut(out.size() - 4);
-        out.put(std::uint32_t{0});
-      }
+      if (node && build == 6) out.put(std::uint32_t{0});  // the position of a table: none
       out.put_bytes(std::span(file).subspan(at + fields, payload));
     }
     at += fields + payload;
