@@ -23,7 +23,8 @@ class SaliencyModel {
   virtual void compute(const Frame& frame, SaliencyWants wants, SaliencyMaps& maps, StageTimes& times) = 0;
 };
 
-/// Whether the model sees nothing where there is no depth.
+/// Whether the model is made with the operator of src/saliency: it sees nothing where there is no depth, and
+/// the kernel, the levels and their scale and normalisation are settings of it.
 bool needs_depth(std::string_view model);
 
 /// Throws Error (usage) if the settings do not fit images of this size (symmetry3d and combined: see

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include "models/model.hpp"
 #include "ui/viewer/panels.hpp"
 #include "ui/viewer/texture.hpp"
 #include "ui/viewer/widgets.hpp"
@@ -62,8 +63,7 @@ ImVec2 draw_chip(const ViewContext& view, ImVec2 corner, const std::string& text
 
 std::string title_of(const Computed& computed, const char* side) {
   const Settings& s = computed.settings;
-  const bool has_kernel = s.model == "symmetry3d" || s.model == "combined";
-  return fmt::format("{}{}{}", side, s.model, has_kernel ? fmt::format("  k {}", s.kernel) : "");
+  return fmt::format("{}{}{}", side, s.model, needs_depth(s.model) ? fmt::format("  k {}", s.kernel) : "");
 }
 
 // The palette with the values at its ends.

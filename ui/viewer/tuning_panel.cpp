@@ -3,14 +3,13 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include "models/model.hpp"
 #include "ui/command_line.hpp"
 #include "ui/viewer/panels.hpp"
 #include "ui/viewer/widgets.hpp"
 
 namespace saccade {
 namespace {
-
-bool uses_operator(const Settings& s) { return s.model == "symmetry3d" || s.model == "combined"; }
 
 void draw_kernel(ViewContext& view, Settings& s) {
   row(view, "Kernel", "Size of the window around each pixel, at every level");
@@ -35,7 +34,7 @@ void draw_levels(ViewContext& view, Settings& s) {
 }
 
 void draw_operator(ViewContext& view, Settings& s) {
-  ImGui::BeginDisabled(!uses_operator(s));
+  ImGui::BeginDisabled(!needs_depth(s.model));
   draw_kernel(view, s);
   draw_levels(view, s);
   row(view, "Length scale",
