@@ -4,8 +4,9 @@
 #include <optional>
 #include <vector>
 
-#include "ui/cloud_panel.hpp"
 #include "ui/cloud_renderer.hpp"
+#include "ui/orbit_camera.hpp"
+#include "ui/point_cloud.hpp"
 
 namespace saccade {
 
@@ -25,8 +26,9 @@ class CloudScene {
   /// Throws as CloudRenderer.
   CloudScene() = default;
 
-  /// Draws the frame as `state` asks for, and returns the texture; see CloudRenderer::draw().
-  unsigned render(const CloudFrame& frame, const CloudPanelState& state, cv::Size size, bool light_theme);
+  /// Draws the frame as it is asked for, and returns the texture; see CloudRenderer::draw().
+  unsigned render(const CloudFrame& frame, const CloudChoices& choices, const OrbitCamera& camera,
+                  cv::Size size, bool light_theme);
 
  private:
   struct Built {  // from what

@@ -85,11 +85,20 @@ void swatch(ImU32 colour) {
   ImGui::SameLine(0, side / 2);
 }
 
-void explain(const char* text) {
-  if (!ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
+void named_row(const char* name, const char* explanation) {
+  const float left = ImGui::GetCursorPosX();
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextUnformatted(name);
+  explain(explanation);
+  ImGui::SameLine(left + 7.5F * ImGui::GetFontSize());
+  ImGui::SetNextItemWidth(-1);
+}
+
+void explain(const std::string& text) {
+  if (text.empty() || !ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
   ImGui::BeginTooltip();
   ImGui::PushTextWrapPos(ImGui::GetFontSize() * 26);
-  ImGui::TextUnformatted(text);
+  ImGui::TextUnformatted(text.c_str());
   ImGui::PopTextWrapPos();
   ImGui::EndTooltip();
 }

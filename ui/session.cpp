@@ -69,6 +69,11 @@ SensorValues Session::sensor_values() const {
   return controls_ == nullptr ? SensorValues{} : controls_->values();
 }
 
+std::vector<SensorMode> Session::sensor_modes() const {
+  const std::lock_guard lock(mutex_);
+  return controls_ == nullptr ? std::vector<SensorMode>{} : controls_->modes();
+}
+
 void Session::request_sensor(const SensorValues& wanted) {
   const std::lock_guard lock(mutex_);
   if (controls_ != nullptr) controls_->request(wanted);
@@ -110,11 +115,11 @@ void Session::work(const std::stop_token& token) {
 void Session::run(const OpenRequest& request) {
   std::unique_ptr<FrameSource> source = open_(request.uri, request.sensor);
   const SourceInfo info = source->info();
+  check_start(info, request.range.start);
   SensorControls* const controls = source->controls();
   PipelineOptions options;
   options.policy = FramePolicy::newest;
   options.slots = kSlots;
-  options.intrinsics = request.intrinsics;
   if (info.live) options.selection = {request.range.start, request.range.every, request.range.limit};
   options.on_rejected = [this](std::int64_t index, const std::string& reason) {
     change([&](SessionState& state) {

@@ -21,7 +21,6 @@ namespace saccade {
 struct OpenRequest {
   std::string uri;
   PlayRange range{};
-  std::optional<Intrinsics> intrinsics{};
   SensorSettings sensor{};  ///< of live sensors
 };
 
@@ -82,6 +81,7 @@ class Session {
   /// The controls of the sensor that is open: see SensorControls. All empty, and without effect, where there
   /// is none.
   SensorValues sensor_values() const;
+  std::vector<SensorMode> sensor_modes() const;
   void request_sensor(const SensorValues& wanted);
 
   /// The newest result of the source that is open; null = none yet.

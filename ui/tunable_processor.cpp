@@ -125,6 +125,7 @@ void TunableProcessor::process(Result& result) {
   }
   Result& a = view->a.result;
   copy_frame(result.frame, a.frame);
+  if (wishes.a.intrinsics) a.frame.intrinsics = *wishes.a.intrinsics;
   a.times = result.times;
   a.captured_at = result.captured_at;
   a_->compute(wishes.a, wishes.wants, view->a);

@@ -14,7 +14,7 @@ namespace saccade {
 
 /// What is to be computed of each frame.
 struct Wishes {
-  Settings a;
+  Settings a;                 ///< its intrinsics, if there are any, take the place of the frame's
   std::optional<Settings> b;  ///< a second computation of the same frame
   SaliencyWants wants;        ///< by-products of both, where the model has them
 };

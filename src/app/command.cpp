@@ -57,12 +57,6 @@ void fit_to_depth(Settings& settings, SourceInfo& source) {
   source.notes.emplace_back("the selector proto needs depth; wta chooses the points");
 }
 
-void check_start(const SourceInfo& source, const Settings& settings) {
-  if (source.frame_count && settings.start >= *source.frame_count)
-    throw usage_error(fmt::format("--start {} is behind the last frame", settings.start), source.uri,
-                      fmt::format("it has {} frames, counted from 0", *source.frame_count));
-}
-
 void make_output_folder(const fs::path& folder) {
   std::error_code code;
   fs::create_directories(folder, code);

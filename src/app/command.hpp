@@ -25,9 +25,6 @@ void fit_default_levels(Settings& settings, SourceInfo& source);
 /// `proto`, which does too, for `wta`, adding a note of it to the source.
 void fit_to_depth(Settings& settings, SourceInfo& source);
 
-/// Throws Error (usage) if `settings.start` is behind the last frame of the source.
-void check_start(const SourceInfo& source, const Settings& settings);
-
 /// Makes the folder of --out if it is not there. Throws Error (failed).
 void make_output_folder(const std::filesystem::path& folder);
 

@@ -62,7 +62,7 @@ class Run {
     fit_to_depth(report_.settings, report_.source);
     fit_default_levels(report_.settings, report_.source);
     check_model(report_.settings, report_.source.size);
-    check_start(report_.source, report_.settings);
+    check_start(report_.source, report_.settings.start);
     auto processor = make_processor(report_.settings);
     make_output_folder(folder_);
     write_manifest();

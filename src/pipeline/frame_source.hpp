@@ -26,6 +26,9 @@ struct SourceInfo {
   std::vector<std::string> notes;  ///< what the user should know: gaps, guesses; one line each
 };
 
+/// Throws Error (usage) if frame `start` is behind the last one of the source.
+void check_start(const SourceInfo& source, std::int64_t start);
+
 enum class ReadStatus {
   frame,     ///< `frame` is filled
   end,       ///< there is nothing more

@@ -161,13 +161,13 @@ TEST_F(ViewerTest, RecordsAndTakesSnapshots) {
   std::set<std::string> kinds;
   for (const auto& entry : std::filesystem::directory_iterator(snapshot)) {
     const std::string name = entry.path().filename();
-    kinds.insert(name.substr(name.find('_')));
+    kinds.insert(name == "settings.toml" ? name : name.substr(name.find('_')));
     if (name.ends_with("overlay.png")) {
       EXPECT_EQ(decode_png(read_file(entry.path())).size(), cv::Size(640, 480));
     }
   }
-  EXPECT_EQ(kinds,
-            (std::set<std::string>{"_fixations.json", "_overlay.png", "_saliency.png", "_saliency.tiff"}));
+  EXPECT_EQ(kinds, (std::set<std::string>{"_fixations.json", "_overlay.png", "_saliency.png",
+                                          "_saliency.tiff", "settings.toml"}));
   EXPECT_TRUE(now()["errors"].empty());
 }
 

@@ -21,7 +21,7 @@ void draw_speed(ViewContext& view) {
         view.session.playback().set_speed(speed);
     ImGui::EndCombo();
   }
-  tip(with_key("Speed", Action::slower) + ", " + key_name(Action::faster));
+  explain(with_key("Speed", Action::slower) + ", " + key_name(Action::faster));
 }
 
 // Recording and snapshot.

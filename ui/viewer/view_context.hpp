@@ -18,8 +18,6 @@
 #include "ui/view_state.hpp"
 #include "ui/viewer/theme.hpp"
 
-struct ImFont;
-
 namespace saccade {
 
 /// What a panel may see and touch while a frame of the window is drawn; all on the window's thread. Panels
@@ -41,10 +39,13 @@ struct ViewContext {
   RecordingStatus recording;  ///< of the recording that runs, or of the last one
   std::string snapshot;       ///< folder of the last snapshot; empty = there was none
 
+  double captured_hz = 0;  ///< frames that came from the source of late, computed or not
+  bool can_undo = false, can_redo = false;
+
   double busy_ms = 0, longest_ms = 0;  ///< what the window's last frame took to draw; the longest of all
 
   double unit = 1;  ///< pixels of ImGui for one of a screen of usual density
-  ImFont* bold = nullptr;
+  Fonts fonts;
   const ThemeColours* colours = nullptr;
 
   std::optional<cv::Point> pointer;  ///< pixel of the frame under the mouse

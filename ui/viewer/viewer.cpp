@@ -7,7 +7,7 @@
 
 #include "core/error.hpp"
 #include "core/png.hpp"
-#include "ui/viewer/widgets.hpp"
+#include "ui/sensor_wishes.hpp"
 
 namespace saccade {
 namespace {
@@ -39,6 +39,7 @@ Viewer::Viewer(ViewState state, ViewerOptions options, Session::Open open_functi
       view_(state_, session_),
       history_(state_.tuning),
       sent_{state_.tuning.a, {}, {}} {
+  share_source(state_.tuning);
   view_.act = [this](Action action) { act(action); };
   view_.open = [this](const std::string& uri) { open(uri); };
   if (!options_.log.empty()) log_.emplace(options_.log);
@@ -105,6 +106,8 @@ void Viewer::take_news() {
   }
   take_errors();
   fit_to_source();
+  captured_.count(view_.source.ledger.captured, Clock::now());
+  view_.captured_hz = captured_.rate_hz();
   sidebar_.sensors().take_news(view_);
   for (const std::string& path : window_.take_dropped()) open(path);
   const bool live = view_.source.source.live && view_.source.phase == SessionState::Phase::open;
@@ -137,8 +140,8 @@ void Viewer::fit_to_source() {
 
 void Viewer::scale_ui() {
   const double scale = state_.ui_scale > 0 ? state_.ui_scale : window_.screen_scale();
-  if (scale != scale_ || !view_.bold) {
-    view_.bold = load_fonts(scale);
+  if (scale != scale_ || view_.fonts.bold == nullptr) {
+    view_.fonts = load_fonts(scale);
     window_.renew_fonts();
   } else if (theme_ == state_.theme) {
     return;
@@ -154,112 +157,15 @@ void Viewer::draw_frame() {
   window_.begin_frame();
   handle_keys();
   view_.wants = {};
+  view_.can_undo = history_.can_undo();
+  view_.can_redo = history_.can_redo();
   draw_window();
-  if (!ImGui::IsAnyItemActive()) {
-    history_.change(state_.tuning);
-    history_.commit();
-  }
+  share_source(state_.tuning);
+  history_.change(state_.tuning);
+  if (!ImGui::IsAnyItemActive()) history_.commit();
   send_wishes();
+  follow_sensor();
   window_.end_frame(view_.colours->behind, [this] { before_show(); });
-}
-
-void Viewer::draw_window() {
-  ImGui::SetNextWindowPos({0, 0});
-  ImGui::SetNextWindowSize(ImGui::GetIO().DisplaySize);
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
-  ImGui::Begin("##saccade", nullptr,
-               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
-                   ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoSavedSettings |
-                   ImGuiWindowFlags_NoScrollWithMouse);
-  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0, 0});
-  const auto part = [&](const char* id, ImVec2 size, const auto& draw) {
-    ImGui::PushStyleColor(ImGuiCol_ChildBg, as_vec4(view_.colours->panel));
-    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {view_.px(12), view_.px(8)});
-    ImGui::BeginChild(id, size, false, ImGuiWindowFlags_AlwaysUseWindowPadding);
-    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {view_.px(8), view_.px(7)});
-    draw();
-    ImGui::PopStyleVar();
-    ImGui::EndChild();
-    ImGui::PopStyleVar();
-    ImGui::PopStyleColor();
-  };
-  part("top", {0, ImGui::GetFrameHeight() + view_.px(16)}, [&] { draw_top_bar(view_); });
-  ImGui::Dummy({0, view_.px(1)});
-  const float sidebar = state_.sidebar ? view_.px(state_.sidebar_width) : 0;
-  const float height = ImGui::GetContentRegionAvail().y;
-  ImGui::BeginChild("body", {ImGui::GetContentRegionAvail().x - sidebar, height});
-  draw_body(height);
-  ImGui::EndChild();
-  if (state_.sidebar) {
-    ImGui::SameLine();
-    part("sidebar", {0, height}, [&] { sidebar_.draw(view_); });
-  }
-  ImGui::PopStyleVar(2);
-  draw_notice();
-  open_dialog_.draw(view_);
-  settings_dialog_.draw(view_);
-  draw_help(view_, help_);
-  ImGui::End();
-}
-
-void Viewer::draw_body(float height) {
-  const float timeline = view_.source.source.live ? 0 : ImGui::GetFontSize() + view_.px(34 + 7 + 4);
-  const float transport = ImGui::GetFrameHeight() + view_.px(16) + timeline;
-  const float before = ImGui::GetCursorPosY();
-  draw_errors(view_);
-  const float errors = ImGui::GetCursorPosY() - before;
-  ImGui::BeginChild("centre", {0, std::max(1.0F, height - transport - errors - view_.px(1))}, false,
-                    ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse);
-  draw_centre();
-  ImGui::EndChild();
-  ImGui::Dummy({0, view_.px(1)});
-  ImGui::PushStyleColor(ImGuiCol_ChildBg, as_vec4(view_.colours->panel));
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {view_.px(12), view_.px(8)});
-  ImGui::BeginChild("transport", {0, transport}, false,
-                    ImGuiWindowFlags_AlwaysUseWindowPadding | ImGuiWindowFlags_NoScrollbar);
-  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {view_.px(8), view_.px(7)});
-  draw_transport(view_);
-  ImGui::PopStyleVar();
-  ImGui::EndChild();
-  ImGui::PopStyleVar();
-  ImGui::PopStyleColor();
-}
-
-void Viewer::draw_centre() {
-  const bool both = state_.centre == Centre::both;
-  const ImVec2 room = ImGui::GetContentRegionAvail();
-  if (state_.centre == Centre::cloud) view_.pointer.reset();
-  if (state_.centre != Centre::cloud) {
-    ImGui::BeginChild("picture", {both ? room.x / 2 - view_.px(1) : 0, 0}, false,
-                      ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse);
-    picture_.draw(view_);
-    ImGui::EndChild();
-  }
-  view_.over_picture = nullptr;  // the side bar, which is drawn later, says it anew
-  if (both) ImGui::SameLine(0, view_.px(2));
-  if (state_.centre != Centre::picture) {
-    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {view_.px(8), view_.px(7)});
-    ImGui::BeginChild("cloud", {0, 0}, false,
-                      ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse);
-    cloud_.draw(view_);
-    ImGui::EndChild();
-    ImGui::PopStyleVar();
-  }
-}
-
-void Viewer::draw_notice() {
-  if (view_.notice.empty()) return;
-  if (ImGui::GetTime() > view_.notice_until) {
-    view_.notice.clear();
-    return;
-  }
-  const ImVec2 size = ImGui::CalcTextSize(view_.notice.c_str()), screen = ImGui::GetIO().DisplaySize;
-  const ImVec2 pad{view_.px(14), view_.px(8)};
-  const ImVec2 corner{(screen.x - size.x) / 2 - pad.x, view_.px(64)};
-  ImDrawList& draw = *ImGui::GetForegroundDrawList();
-  draw.AddRectFilled(corner, {corner.x + size.x + 2 * pad.x, corner.y + size.y + 2 * pad.y},
-                     IM_COL32(20, 24, 29, 235), view_.px(8));
-  draw.AddText({corner.x + pad.x, corner.y + pad.y}, IM_COL32(235, 238, 242, 255), view_.notice.c_str());
 }
 
 void Viewer::send_wishes() {
@@ -276,8 +182,19 @@ void Viewer::send_wishes() {
   view_.timeline.age();
 }
 
+// An open sensor gets what was changed in its settings, by its controls, by undo or by a file.
+void Viewer::follow_sensor() {
+  if (view_.source.phase != SessionState::Phase::open || !view_.source.source.live) return;
+  const SensorSettings& wanted = state_.tuning.a.sensor;
+  if (wanted.mode != sent_sensor_.mode) return open(view_.source.uri);
+  const SensorValues request = changed_values(sent_sensor_, wanted);
+  if (request != SensorValues{}) session_.request_sensor(request);
+  sent_sensor_ = wanted;
+}
+
 void Viewer::open(const std::string& uri) {
-  OpenRequest request{uri, {}, options_.source.intrinsics, state_.tuning.a.sensor};
+  OpenRequest request{uri, {}, state_.tuning.a.sensor};
+  sent_sensor_ = request.sensor;
   if (uri == options_.source.uri) request.range = options_.source.range;
   sidebar_.sensors().end_recording();  // a file is of one source
   session_.open(request);

@@ -8,6 +8,8 @@
 #include <string>
 
 #include "core/file.hpp"
+#include "ui/rate_meter.hpp"
+#include "ui/settings_history.hpp"
 #include "ui/source_fit.hpp"
 #include "ui/viewer/cloud_view.hpp"
 #include "ui/viewer/panels.hpp"
@@ -61,6 +63,7 @@ class Viewer {
   void act_on_window(Action action);
   void copy_command();
   void send_wishes();
+  void follow_sensor();
   void open(const std::string& uri);
   void scale_ui();
   void before_show();
@@ -82,6 +85,8 @@ class Viewer {
   SettingsDialog settings_dialog_;
   bool help_ = false;
   Wishes sent_;
+  SensorSettings sent_sensor_;
+  RateMeter captured_;
   std::int64_t generation_ = 0, a_since_ = 0;  // of the wishes sent last; since when A is what it is
   double scale_ = 0;
   Theme theme_ = Theme::dark;
