@@ -10,12 +10,17 @@ unsigned CloudScene::render(const CloudFrame& frame, const CloudPanelState& stat
   if (built_ != wanted) {
     build(frame, state.choices);
     built_ = wanted;
+    drawn_.reset();
   }
+  const Drawn drawing{state.camera, size, light_theme};
+  renewed_ = drawn_ != drawing;
+  if (!renewed_) return texture_;
   CloudLook look;
   look.lit = state.choices.lit;
   look.point_mm_per_m = static_cast<double>(state.choices.point_size) * 1000 / frame.frame.intrinsics.fx;
   if (light_theme) look.background = {0.86F, 0.87F, 0.89F};
-  return renderer_.draw(state.camera, size, look);
+  drawn_ = drawing;
+  return texture_ = renderer_.draw(state.camera, size, look);
 }
 
 void CloudScene::build(const CloudFrame& frame, const CloudChoices& choices) {

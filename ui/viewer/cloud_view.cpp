@@ -13,7 +13,9 @@ void CloudView::draw(ViewContext& view) {
                          view.state.style, view.result->serial};
   draw_cloud_panel(state_, view.result->frame(), computed.result.attention, [&](cv::Size size) {
     const unsigned texture = scene_->render(frame, state_, size, view.state.theme == Theme::light);
-    return reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(texture));
+    const auto id = reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(texture));
+    if (scene_->renewed()) view.renewed.push_back(id);
+    return id;
   });
 }
 

@@ -154,13 +154,14 @@ void Viewer::draw_frame() {
   window_.begin_frame();
   handle_keys();
   view_.wants = {};
+  view_.renewed.clear();
   draw_window();
   if (!ImGui::IsAnyItemActive()) {
     history_.change(state_.tuning);
     history_.commit();
   }
   send_wishes();
-  window_.end_frame(view_.colours->behind, [this] { before_show(); });
+  window_.end_frame(view_.colours->behind, view_.renewed, [this] { before_show(); });
 }
 
 void Viewer::draw_window() {
@@ -168,7 +169,7 @@ void Viewer::draw_window() {
   ImGui::SetNextWindowSize(ImGui::GetIO().DisplaySize);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
   ImGui::Begin("##saccade", nullptr,
-               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoBackground | ImGuiWindowFlags_NoMove |
                    ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoSavedSettings |
                    ImGuiWindowFlags_NoScrollWithMouse);
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0, 0});
