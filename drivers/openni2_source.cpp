@@ -115,6 +115,11 @@ SensorValues OpenNi2Source::values() const {
   return values_;
 }
 
+std::vector<SensorMode> OpenNi2Source::modes() const {
+  const std::lock_guard lock(mutex_);
+  return modes_;
+}
+
 void OpenNi2Source::request(const SensorValues& wanted) {
   const std::lock_guard lock(mutex_);
   lay_over(wanted_, wanted);
@@ -224,6 +229,7 @@ void OpenNi2Source::took_device() {
   {
     const std::lock_guard lock(mutex_);
     values_ = device_->values();
+    modes_ = device_->modes();
   }
   if (first) set_state(Connection::streaming, name_of(*last_device_), opened_at_);
 }

@@ -8,6 +8,7 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/settings.hpp"
 #include "drivers/openni2_device.hpp"
@@ -55,6 +56,7 @@ class OpenNi2Source final : public FrameSource, private SensorControls {
   };
 
   SensorValues values() const override;
+  std::vector<SensorMode> modes() const override;
   void request(const SensorValues& wanted) override;
 
   void try_to_connect();
@@ -106,6 +108,7 @@ class OpenNi2Source final : public FrameSource, private SensorControls {
   SourceState state_;
   std::optional<Clock::time_point> away_since_;
   SensorValues values_, wanted_, requested_;
+  std::vector<SensorMode> modes_;
 };
 
 }  // namespace saccade

@@ -2,7 +2,6 @@
 
 #include <sys/resource.h>
 
-#include <algorithm>
 #include <exception>
 #include <utility>
 #include <vector>
@@ -24,11 +23,6 @@ bool same_selector(const Settings& a, const Settings& b) {
   return a.selector == b.selector && a.fixations == b.fixations && a.foa == b.foa;
 }
 
-void fit_levels(Settings& settings, cv::Size image) {
-  const int deepest = deepest_level(image);
-  if (!settings.levels_chosen && deepest >= 0) settings.last_level = std::min(settings.last_level, deepest);
-}
-
 }  // namespace
 
 // One model and one selector, remade when the settings say so.
@@ -39,7 +33,7 @@ class TunableProcessor::Engine {
   // `out.result.frame` is filled.
   void compute(Settings settings, SaliencyWants wants, Computed& out) {
     const Frame& frame = out.result.frame;
-    fit_levels(settings, frame.size());
+    settings.last_level = last_level_for(settings, frame.size());
     out.settings = settings;
     out.error.clear();
     try {

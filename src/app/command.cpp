@@ -40,11 +40,11 @@ void tell_state(const SourceState& state) {
 }
 
 void fit_default_levels(Settings& settings, SourceInfo& source) {
-  const int deepest = deepest_level(source.size);
-  if (settings.levels_chosen || deepest < 0 || deepest >= settings.last_level) return;
-  settings.last_level = deepest;
+  const int last = last_level_for(settings, source.size);
+  if (last == settings.last_level) return;
+  settings.last_level = last;
   source.notes.push_back(fmt::format("{}x{} images have room for levels 0..{} only, not for the default",
-                                     source.size.width, source.size.height, deepest));
+                                     source.size.width, source.size.height, last));
 }
 
 void fit_to_depth(Settings& settings, SourceInfo& source) {

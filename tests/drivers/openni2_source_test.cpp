@@ -15,6 +15,7 @@
 #include "core/error.hpp"
 #include "drivers/open_source.hpp"
 #include "drivers/openni2_devices.hpp"
+#include "drivers/openni2_modes.hpp"
 
 namespace saccade {
 namespace {
@@ -132,6 +133,18 @@ TEST_F(Sensor, ControlsAreReadBackAndHoldForTheFrames) {
   EXPECT_TRUE(found);
 }
 
+TEST_F(Sensor, EachModeThatItTellsCanBeOpened) {
+  const std::vector<SensorMode> modes = open_source("openni2")->controls()->modes();
+  EXPECT_EQ(modes, (std::vector<SensorMode>{{160, 120, 30}, {160, 120, 60}, {80, 60, 30}, {80, 60, 60}}));
+  for (const SensorMode& mode : modes) {
+    SensorSettings settings;
+    settings.mode = mode;
+    const auto source = open_source("openni2", settings);
+    EXPECT_EQ(source->info().size, cv::Size(mode.width, mode.height));
+    EXPECT_EQ(source->info().rate_hz, mode.rate_hz);
+  }
+}
+
 TEST_F(Sensor, DevicesAreListedWhileOneStreams) {
   const auto source = open_source("openni2");
   for (int i = 0; i < 20; ++i) {
@@ -148,7 +161,7 @@ TEST_F(Sensor, LookingIntoADeviceTellsItsModes) {
   look_into(device);
   EXPECT_EQ(device.problem, "");
   EXPECT_EQ(device.serial, "VIRTUAL-1");
-  EXPECT_EQ(device.depth_modes.size(), 4U);
+  EXPECT_EQ(device.depth_modes, open_source("openni2")->controls()->modes());
   EXPECT_EQ(device.colour_modes.size(), 4U);
   device.identity.uri = "absent://1";
   look_into(device);
@@ -167,6 +180,7 @@ TEST_F(Sensor, OneThatIsNotThereIsAnErrorOrIsWaitedFor) {
   settings.wait_s = 1000;
   const auto source = open_source("openni2:absent://1", settings);
   EXPECT_EQ(source->state().connection, SourceState::Connection::waiting);
+  EXPECT_TRUE(source->controls()->modes().empty());
   Frame frame;
   EXPECT_EQ(source->read(frame, milliseconds(1)).status, ReadStatus::timeout);
   source->interrupt();
