@@ -10,12 +10,17 @@ unsigned CloudScene::render(const CloudFrame& frame, const CloudChoices& choices
   if (built_ != wanted) {
     build(frame, choices);
     built_ = wanted;
+    drawn_.reset();
   }
+  const Drawn drawing{camera, size, light_theme};
+  renewed_ = drawn_ != drawing;
+  if (!renewed_) return texture_;
   CloudLook look;
   look.lit = choices.lit;
   look.point_mm_per_m = static_cast<double>(choices.point_size) * 1000 / frame.frame.intrinsics.fx;
   if (light_theme) look.background = {0.86F, 0.87F, 0.89F};
-  return renderer_.draw(camera, size, look);
+  drawn_ = drawing;
+  return texture_ = renderer_.draw(camera, size, look);
 }
 
 void CloudScene::build(const CloudFrame& frame, const CloudChoices& choices) {

@@ -26,11 +26,21 @@ class CloudScene {
   /// Throws as CloudRenderer.
   CloudScene() = default;
 
-  /// Draws the frame as it is asked for, and returns the texture; see CloudRenderer::draw().
+  /// Draws the frame as it is asked for, if that is not what was drawn last, and returns the texture; see
+  /// CloudRenderer::draw().
   unsigned render(const CloudFrame& frame, const CloudChoices& choices, const OrbitCamera& camera,
                   cv::Size size, bool light_theme);
 
+  /// Whether the last render() drew.
+  bool renewed() const { return renewed_; }
+
  private:
+  struct Drawn {  // beside what was built
+    OrbitCamera camera;
+    cv::Size size;
+    bool light_theme;
+    bool operator==(const Drawn&) const = default;
+  };
   struct Built {  // from what
     std::int64_t serial;
     CloudChoices choices;
@@ -41,6 +51,9 @@ class CloudScene {
 
   CloudRenderer renderer_;
   std::optional<Built> built_;
+  std::optional<Drawn> drawn_;  // none: what was built is not drawn yet
+  unsigned texture_ = 0;
+  bool renewed_ = false;
   std::vector<CloudVertex> points_, lines_;
 };
 

@@ -15,7 +15,9 @@ void CloudView::draw(ViewContext& view) {
   draw_cloud_panel(choices, state_, view.result->frame(), computed.result.attention, [&](cv::Size size) {
     const unsigned texture =
         scene_->render(frame, choices, state_.camera, size, view.state.theme == Theme::light);
-    return reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(texture));
+    const auto id = reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(texture));
+    if (scene_->renewed()) view.renewed.push_back(id);
+    return id;
   });
 }
 

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <optional>
@@ -15,36 +14,24 @@ namespace {
 
 constexpr double kZoomStep = 1.15, kSharpFrom = 3;
 
-// The strength of the map as colours whose opacity grows with it.
-cv::Mat4b map_picture(const cv::Mat1f& smooth, const MapStyle& style) {
-  const cv::Mat1b strength = shown_strength(smooth, style);
-  const PaletteColours& colours = colours_of(style.palette);
-  std::array<cv::Vec4b, 256> rgba;
-  for (std::size_t i = 0; i < rgba.size(); ++i) {
-    const auto alpha = cv::saturate_cast<std::uint8_t>(style.opacity * static_cast<double>(i));
-    rgba[i] = {colours[i][2], colours[i][1], colours[i][0], alpha};
-  }
-  cv::Mat4b picture(strength.size());
-  std::transform(strength.begin(), strength.end(), picture.begin(), [&](std::uint8_t i) { return rgba[i]; });
-  return picture;
-}
-
 }  // namespace
 
-// What is on the graphics card, and of what it was made.
+// What is on the graphics card, and of what it was made. The map is laid over the frame here and not by the
+// graphics card, which would go over each pixel of the window twice: where it is the processor, that is felt.
 struct PicturePanel::Layers {
-  struct Map {
+  struct Side {
     Texture texture;
     std::int64_t serial = 0;
-    MapStyle style;
+    bool map = false;
+    OverlayStyle style;
   };
-  Texture background;
+  cv::Mat3b background;
   std::optional<std::int64_t> index;  // of the background's frame
   std::int64_t timestamp_us = 0;
   Background background_style = Background::colour;
   DepthStyle depth_style;
   std::optional<ValueRange> depth_range;  // of the background; none = it is not of the depth
-  Map a, b;
+  Side a, b;
   PictureView view;
   bool dragging = false, dragging_divider = false;
 
@@ -53,7 +40,7 @@ struct PicturePanel::Layers {
     if (index == frame.index && timestamp_us == frame.timestamp_us && background_style == style.background &&
         depth_style == style.depth)
       return;
-    background.upload(draw_background(frame, style));
+    background = draw_background(frame, style);
     depth_range = shown_depth_range(frame, style);
     index = frame.index;
     timestamp_us = frame.timestamp_us;
@@ -61,11 +48,23 @@ struct PicturePanel::Layers {
     depth_style = style.depth;
   }
 
-  static void update_map(Map& map, const Computed& computed, std::int64_t serial, const MapStyle& style) {
-    if (map.serial == serial && map.style == style) return;
-    map.texture.upload(map_picture(computed.smooth, style));
-    map.serial = serial;
-    map.style = style;
+  void update(Side& side, const Computed& computed, ViewContext& context) const {
+    const ViewState& state = context.state;
+    const OverlayStyle& style = state.style;
+    const std::int64_t serial = context.result->serial;
+    if (side.serial == serial && side.map == state.show_map && side.style.map == style.map &&
+        side.style.background == style.background && side.style.depth == style.depth)
+      return;
+    cv::Mat3b picture = background;
+    if (state.show_map) {
+      picture = background.clone();
+      blend_map(picture, shown_strength(computed.smooth, style.map), style.map);
+    }
+    side.texture.upload(picture);
+    side.serial = serial;
+    side.map = state.show_map;
+    side.style = style;
+    context.renewed.push_back(side.texture.id());
   }
 };
 
@@ -87,14 +86,12 @@ void PicturePanel::draw(ViewContext& view) {
   ImGui::InvisibleButton("##picture", size,
                          ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonMiddle);
   const ImVec2 end{corner.x + size.x, corner.y + size.y};
-  ImGui::GetWindowDrawList()->AddRectFilled(corner, end, ImGui::GetColorU32(ImGuiCol_WindowBg));
   if (!view.result) return;
   Layers& l = *layers_;
-  const OverlayStyle& style = view.state.style;
-  l.update_background(*view.result, style);
-  l.update_map(l.a, view.result->a, view.result->serial, style.map);
+  l.update_background(*view.result, view.state.style);
+  l.update(l.a, view.result->a, view);
   const bool two = view.state.comparing() && view.result->compared;
-  if (two) l.update_map(l.b, view.result->b, view.result->serial, style.map);
+  if (two) l.update(l.b, view.result->b, view);
 
   if (two && view.state.comparison == Comparison::side_by_side) {
     const float gap = view.px(4), half = (size.x - gap) / 2;
@@ -159,9 +156,9 @@ void PicturePanel::draw_side(ViewContext& view, const PictureSide& side) {
   const ImVec2 low = on_screen({0, 0}), high = on_screen(cv::Point2d(frame.width, frame.height));
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   draw.PushClipRect(side.clip_low, side.clip_high, true);
-  l.background.set_sharp(l.view.scale() >= kSharpFrom);
-  draw.AddImage(l.background.id(), low, high);
-  if (view.state.show_map) draw.AddImage((side.is_b ? l.b : l.a).texture.id(), low, high);
+  Texture& texture = (side.is_b ? l.b : l.a).texture;
+  if (texture.set_sharp(l.view.scale() >= kSharpFrom)) view.renewed.push_back(texture.id());
+  draw.AddImage(texture.id(), low, high);
   draw.PopClipRect();
   draw_over_picture(view, side, l.view, l.depth_range);
 }

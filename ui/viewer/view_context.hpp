@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include <imgui.h>
 #include <nlohmann/json.hpp>
 #include <opencv2/core.hpp>
 
@@ -52,6 +53,8 @@ struct ViewContext {
   bool pointer_on_b = false;         ///< it is over B's picture
   /// Draws over the picture with the next frame of the window; may be empty.
   std::function<void(ImDrawList&, const PicturePlace&)> over_picture;
+
+  std::vector<ImTextureID> renewed;  ///< textures whose pixels have changed; cleared before each frame
 
   std::vector<std::string> errors;  ///< to be shown until they are put away; one line each
   std::vector<std::string> notes;   ///< what is to be known of the source, until it is put away

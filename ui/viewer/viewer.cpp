@@ -159,13 +159,14 @@ void Viewer::draw_frame() {
   view_.wants = {};
   view_.can_undo = history_.can_undo();
   view_.can_redo = history_.can_redo();
+  view_.renewed.clear();
   draw_window();
   share_source(state_.tuning);
   history_.change(state_.tuning);
   if (!ImGui::IsAnyItemActive()) history_.commit();
   send_wishes();
   follow_sensor();
-  window_.end_frame(view_.colours->behind, [this] { before_show(); });
+  window_.end_frame(view_.colours->behind, view_.renewed, [this] { before_show(); });
 }
 
 void Viewer::send_wishes() {
