@@ -30,6 +30,7 @@ void tell_state(const SourceState& state) {
       if (state.losses > 0)
         spdlog::info("{} streams again; {} loss{}, {:.1f} s away in all", state.text, state.losses,
                      state.losses == 1 ? "" : "es", state.away_s);
+      for (const std::string& note : state.notes) spdlog::warn("{}: {}", state.text, note);
       return;
     case SourceState::Connection::waiting:
       if (::isatty(STDERR_FILENO) == 1) spdlog::info("{}", state.text);

@@ -13,8 +13,8 @@ void set_log_level(const Settings& settings);
 /// Warns of what the user should know of a source: its notes, and a camera that is guessed.
 void tell_notes(const SourceInfo& source, const Settings& settings);
 
-/// Tells that a live source's device is lost, or streams again. That it is waited for at the start is told on
-/// a terminal only: if none comes, the error says so. Any thread.
+/// Tells that a live source's device is lost, or streams again, and what it does otherwise than asked. That
+/// it is waited for at the start is told on a terminal only: if none comes, the error says so. Any thread.
 void tell_state(const SourceState& state);
 
 /// Cuts the default levels to those that the source's images have room for, and adds a note of it to the

@@ -16,6 +16,7 @@
 #include "drivers/open_source.hpp"
 #include "drivers/openni2_devices.hpp"
 #include "drivers/openni2_modes.hpp"
+#include "no_wait.hpp"
 
 namespace saccade {
 namespace {
@@ -43,7 +44,7 @@ class Sensor : public ::testing::Test {
   static std::vector<Frame> originals() {
     const auto source = open_source(kScene);
     std::vector<Frame> frames(kScenes);
-    for (Frame& frame : frames) source->read(frame, milliseconds(0));
+    for (Frame& frame : frames) source->read(frame, kNoWait);
     return frames;
   }
 
