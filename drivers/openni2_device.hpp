@@ -17,8 +17,7 @@
 namespace saccade {
 
 /// One open sensor of OpenNI2 with its depth stream and, where it has one, its colour stream.
-/// Thread safety: one thread at a time, from construction to destruction: OpenNI2 does not bear that one
-/// thread stops a stream for which another waits.
+/// Thread safety: on_openni2_thread() only, from construction to destruction.
 class OpenNi2Device {
  public:
   enum class Ready { nothing, depth, colour };

@@ -5,6 +5,7 @@
 #include <OpenNI.h>
 
 #include "drivers/openni2_modes.hpp"
+#include "drivers/openni2_thread.hpp"
 
 namespace saccade {
 namespace {
@@ -16,6 +17,23 @@ std::string driver_of(const DeviceIdentity& device) {
   constexpr int kPrimeSense = 0x1d27;
   if (device.usb_vendor != kPrimeSense) return "";
   return device.usb_product == 0x0600 || device.usb_product == 0x0601 ? "PS1080" : "PSLink";
+}
+
+void open_and_look(DeviceListing& listing) {
+  openni::Device device;
+  if (device.open(listing.identity.uri.c_str()) != openni::STATUS_OK) {
+    listing.problem = openni::OpenNI::getExtendedError();
+    while (!listing.problem.empty() && listing.problem.back() == '\n') listing.problem.pop_back();
+    if (listing.problem.empty()) listing.problem = "it cannot be opened";
+    return;
+  }
+  std::array<char, 256> serial{};
+  int size = static_cast<int>(serial.size()) - 1;
+  if (device.getProperty(openni::DEVICE_PROPERTY_SERIAL_NUMBER, serial.data(), &size) == openni::STATUS_OK)
+    listing.serial = serial.data();
+  listing.depth_modes = names_of(depth_modes(device));
+  listing.colour_modes = names_of(colour_modes(device));
+  device.close();
 }
 
 }  // namespace
@@ -33,20 +51,7 @@ std::vector<DeviceListing> list_devices() {
 }
 
 void look_into(DeviceListing& listing) {
-  openni::Device device;
-  if (device.open(listing.identity.uri.c_str()) != openni::STATUS_OK) {
-    listing.problem = openni::OpenNI::getExtendedError();
-    while (!listing.problem.empty() && listing.problem.back() == '\n') listing.problem.pop_back();
-    if (listing.problem.empty()) listing.problem = "it cannot be opened";
-    return;
-  }
-  std::array<char, 256> serial{};
-  int size = static_cast<int>(serial.size()) - 1;
-  if (device.getProperty(openni::DEVICE_PROPERTY_SERIAL_NUMBER, serial.data(), &size) == openni::STATUS_OK)
-    listing.serial = serial.data();
-  listing.depth_modes = names_of(depth_modes(device));
-  listing.colour_modes = names_of(colour_modes(device));
-  device.close();
+  on_openni2_thread([&listing] { open_and_look(listing); });
 }
 
 }  // namespace saccade

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "drivers/openni2_thread.hpp"
 
 namespace saccade {
 namespace {
@@ -85,7 +86,9 @@ OpenNi2Source::OpenNi2Source(const std::string& uri, const SensorSettings& setti
   info_.notes = device_->notes();
 }
 
-OpenNi2Source::~OpenNi2Source() = default;
+OpenNi2Source::~OpenNi2Source() {
+  if (device_) on_openni2_thread([&] { device_.reset(); });
+}
 
 void OpenNi2Source::seek(std::int64_t) {
   throw std::logic_error("a live sensor has no other frame to go to");
@@ -128,7 +131,7 @@ void OpenNi2Source::apply_requests() {
     requested = std::exchange(requested_, {});
   }
   if (requested == SensorValues{}) return;
-  device_->apply(requested);
+  on_openni2_thread([&] { device_->apply(requested); });
   const std::lock_guard lock(mutex_);
   values_ = device_->values();
   state_.notes = device_->notes();
@@ -191,7 +194,7 @@ void OpenNi2Source::try_to_connect() {
     requested_ = {};
   }
   try {
-    device_ = std::make_unique<OpenNi2Device>(found, settings_, wanted);
+    on_openni2_thread([&] { device_ = std::make_unique<OpenNi2Device>(found, settings_, wanted); });
   } catch (const Error& error) {
     if (error.status() == ExitStatus::usage) throw;
     last_failure_ = error.what();
@@ -237,7 +240,9 @@ std::optional<ReadResult> OpenNi2Source::poll_device(Frame& frame, Clock::time_p
     return ReadResult{ReadStatus::timeout, ""};  // at once, so that a short loss is seen, too
   }
   const milliseconds slice = std::clamp(time_left(deadline), milliseconds(0), kPoll);
-  switch (device_->wait(slice)) {
+  auto ready = OpenNi2Device::Ready::nothing;
+  on_openni2_thread([&] { ready = device_->wait(slice); });
+  switch (ready) {
     case OpenNi2Device::Ready::depth:
       if (auto result = take_depth(frame)) return result;
       break;
@@ -255,7 +260,8 @@ std::optional<ReadResult> OpenNi2Source::poll_device(Frame& frame, Clock::time_p
 // A good frame waits for its colour. It drives out the one that waits, which comes first; so does a bad one.
 std::optional<ReadResult> OpenNi2Source::take_depth(Frame& frame) {
   std::int64_t time_us = 0;
-  std::string bad = device_->read_depth(depth_, time_us);
+  std::string bad;
+  on_openni2_thread([&] { bad = device_->read_depth(depth_, time_us); });
   came_back();
   std::optional<ReadResult> before;
   if (pairing_.has_depth()) before = deliver(frame);
@@ -268,7 +274,9 @@ std::optional<ReadResult> OpenNi2Source::take_depth(Frame& frame) {
 
 void OpenNi2Source::take_colour() {
   std::int64_t time_us = 0;
-  if (device_->read_colour(colour_, time_us).empty()) pairing_.put_colour(colour_, time_us);
+  std::string bad;
+  on_openni2_thread([&] { bad = device_->read_colour(colour_, time_us); });
+  if (bad.empty()) pairing_.put_colour(colour_, time_us);
 }
 
 ReadResult OpenNi2Source::reject(Frame& frame) {
@@ -303,7 +311,7 @@ std::string OpenNi2Source::reason_of_loss() const {
 
 void OpenNi2Source::lose(const std::string& why) {
   const std::string name = name_of(device_->identity());
-  device_.reset();
+  on_openni2_thread([&] { device_.reset(); });
   back_off_ = kFirstBackOff;
   next_try_ = Clock::now();
   if (!settings_.reconnect) throw failed("the sensor is lost: " + why, name, kHint);

@@ -12,6 +12,10 @@ bool is_light() {
 
 }  // namespace
 
+ItemPlace place_of_item(const std::string& name) {
+  return {name, ImGui::GetItemRectMin(), ImGui::GetItemRectMax()};
+}
+
 ImVec4 tone_colour(Tone tone) {
   const bool light = is_light();
   switch (tone) {

@@ -9,6 +9,13 @@ namespace saccade {
 /// What a colour of the panels means.
 enum class Tone { plain, quiet, good, warning, bad };
 
+/// Where something stands on the screen.
+struct ItemPlace {
+  std::string name;
+  ImVec2 low, high;
+};
+ItemPlace place_of_item(const std::string& name);  ///< of the last item
+
 /// Readable on the background of the present style, dark or light.
 ImVec4 tone_colour(Tone tone);
 

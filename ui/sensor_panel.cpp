@@ -103,10 +103,14 @@ void draw_devices(const SensorFacts& facts, SensorActions& actions) {
 void draw_mode(const SensorFacts& facts, SensorActions& actions) {
   if (facts.modes.empty()) return;
   named_row("Mode", "Size and rate of the depth; a change opens the sensor again.");
-  if (!ImGui::BeginCombo("##mode", to_text(facts.mode).c_str())) return;
-  for (const SensorMode& mode : facts.modes)
+  const bool open = ImGui::BeginCombo("##mode", to_text(facts.mode).c_str());
+  if (!open) actions.places.push_back(place_of_item("Mode"));
+  if (!open) return;
+  for (const SensorMode& mode : facts.modes) {
     if (ImGui::Selectable(to_text(mode).c_str(), mode == facts.mode) && mode != facts.mode)
       actions.mode = mode;
+    actions.places.push_back(place_of_item(to_text(mode)));
+  }
   ImGui::EndCombo();
 }
 
@@ -119,6 +123,7 @@ void draw_switch(const char* label, const std::optional<bool>& value, const char
     if (!actions.request) actions.request.emplace();
     (*actions.request).*field = on;
   }
+  actions.places.push_back(place_of_item(label));
   explain(what);
 }
 

@@ -47,6 +47,7 @@ struct SensorActions {
   std::optional<SensorValues> request{};  ///< only what was changed
   bool toggle_recording = false;
   bool snapshot = false;
+  std::vector<ItemPlace> places{};  ///< of the mode, its choices, and the switches, by their texts
 };
 
 /// The state in a few words that can be read from across the room, and what they mean.

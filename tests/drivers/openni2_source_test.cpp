@@ -192,6 +192,17 @@ TEST_F(Sensor, OneThatIsNotThereIsAnErrorOrIsWaitedFor) {
 
 TEST_F(Sensor, CannotBeRewound) { EXPECT_THROW(open_source("openni2")->seek(0), std::logic_error); }
 
+// As in the viewer: each opening is read by a thread of its own, which ends with it.
+TEST_F(Sensor, CanBeReadByOneThreadAfterAnother) {
+  for (int opening = 0; opening < 3; ++opening) {
+    std::thread([] { next(*open_source("openni2")); }).join();
+    // The memory of a thread that has ended is kept for the next ones; these make it go.
+    std::vector<std::jthread> others(10);
+    for (std::jthread& other : others)
+      other = std::jthread([] { std::this_thread::sleep_for(milliseconds(20)); });
+  }
+}
+
 TEST_F(Sensor, OpensAndClosesAtAnyMoment) {
   std::minstd_rand dice(7);
   SensorSettings settings;

@@ -111,10 +111,13 @@ std::pair<int, int> XProgramTest::place_of(const std::string& place, double acro
 }
 
 void XProgramTest::click(const std::string& place, double across) const {
-  const auto [x, y] = place_of(place, across);
-  // A person needs a tenth of a second too; ImGui looks at the mouse once a frame.
-  hand("mousemove " + std::to_string(x) + " " + std::to_string(y) +
-       " sleep 0.3 mousedown 1 sleep 0.3 mouseup 1");
+  // What a person aims at may still be moving; and ImGui looks at the mouse once a frame.
+  std::pair<int, int> aim{-1, -1};
+  for (auto at = place_of(place, across); at != aim; at = place_of(place, across)) {
+    aim = at;
+    hand("mousemove " + std::to_string(aim.first) + " " + std::to_string(aim.second) + " sleep 0.3");
+  }
+  hand("mousedown 1 sleep 0.3 mouseup 1");
 }
 
 void XProgramTest::drag(const std::string& place, double from, double to) const {

@@ -46,6 +46,7 @@ class XProgramTest : public FolderTest {
   /// The exit status of what start() started.
   int wait_for_exit();
 
+  const std::string& display() const { return server_.display(); }
   std::string in(const std::string& name) const { return (folder_ / name).string(); }
 
  private:

@@ -30,6 +30,7 @@ void draw_notes(ViewContext& view) {
   ImGui::PopTextWrapPos();
   ImGui::SetCursorPos({ImGui::GetWindowWidth() - view.px(12) - ImGui::GetFrameHeight(), view.px(8)});
   if (ImGui::Button("×##notes")) view.notes.clear();
+  note_place(view, "put notes away");
   explain("Put this away");
   ImGui::EndChild();
   ImGui::PopStyleColor();
@@ -64,6 +65,7 @@ void draw_errors(ViewContext& view) {
       ImGui::SetCursorPosX(ImGui::GetWindowWidth() - view.px(12) - ImGui::GetFrameHeight());
     }
     if (ImGui::Button("×")) gone = i;
+    note_place(view, "put error away");
     explain("Put this away");
     ImGui::EndChild();
     ImGui::PopStyleColor();

@@ -11,6 +11,7 @@
 #include "ui/sensor_wishes.hpp"
 #include "ui/snapshot.hpp"
 #include "ui/viewer/panels.hpp"
+#include "ui/viewer/widgets.hpp"
 #include "ui/viewer/window.hpp"
 
 namespace saccade {
@@ -147,6 +148,7 @@ void SensorSection::draw(ViewContext& view) {
   look_at_disk();
   const SensorFacts now = facts(view);
   const SensorActions actions = draw_sensor_panel(now, std::chrono::steady_clock::now(), view.fonts.large);
+  for (const ItemPlace& place : actions.places) note_place(view, place);
   if (actions.toggle_recording) toggle_recording(view);
   if (actions.snapshot) snapshot(view);
   // The settings say what is wanted of the sensor; the viewer asks it for what has changed.

@@ -67,11 +67,13 @@ void draw_attention(ViewContext& view, Settings& s) {
 void draw_buttons(ViewContext& view) {
   ImGui::BeginDisabled(!view.can_undo);
   if (ImGui::Button("Undo")) view.act(Action::undo);
+  note_place(view, "undo");
   ImGui::EndDisabled();
   explain(with_key("Undo", Action::undo));
   ImGui::SameLine();
   ImGui::BeginDisabled(!view.can_redo);
   if (ImGui::Button("Redo")) view.act(Action::redo);
+  note_place(view, "redo");
   ImGui::EndDisabled();
   explain(with_key("Redo", Action::redo));
   ImGui::SameLine();

@@ -246,17 +246,24 @@ void Viewer::log_frame(double busy_ms) {
       {"generation", generation_},
       {"window", {window.width, window.height}},
       {"processed", view_.source.ledger.processed},
+      {"connection", static_cast<int>(view_.source.connection.connection)},
+      {"losses", view_.source.connection.losses},
       {"recording", view_.recording.phase != RecordingStatus::Phase::idle},
       {"recorded", {{"file", view_.recording.file.string()}, {"frames", view_.recording.frames}}},
       {"snapshot", view_.snapshot},
       {"places", view_.places}};
+  const SensorValues sensor = session_.sensor_values();
+  if (sensor.mirror) line["mirror"] = *sensor.mirror;
+  if (sensor.registration) line["registration"] = *sensor.registration;
   if (view_.result) {
     const Computed& shown = view_.result->a;
+    const cv::Size size = view_.result->frame().size();
     line["shown"] = {
         {"index", view_.result->frame().index},   {"serial", view_.result->serial},
         {"generation", view_.result->generation}, {"model", shown.settings.model},
         {"kernel", shown.settings.kernel},        {"fixations", shown.result.attention.fixations.size()},
-        {"compared", view_.result->compared},     {"error", shown.error}};
+        {"compared", view_.result->compared},     {"error", shown.error},
+        {"size", {size.width, size.height}}};
   }
   log_->append(line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
 }

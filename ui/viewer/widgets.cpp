@@ -105,9 +105,10 @@ std::string with_key(const std::string& text, Action action) {
   return key.empty() ? text : text + " (" + key + ")";
 }
 
-void note_place(ViewContext& view, const char* name) {
-  const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
-  view.places[name] = {low.x, low.y, high.x, high.y};
+void note_place(ViewContext& view, const char* name) { note_place(view, place_of_item(name)); }
+
+void note_place(ViewContext& view, const ItemPlace& place) {
+  view.places[place.name] = {place.low.x, place.low.y, place.high.x, place.high.y};
 }
 
 }  // namespace saccade

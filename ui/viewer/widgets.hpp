@@ -30,6 +30,7 @@ std::string with_key(const std::string& text, Action action);
 
 /// Remembers where the item before is.
 void note_place(ViewContext& view, const char* name);
+void note_place(ViewContext& view, const ItemPlace& place);
 
 inline unsigned as_u32(Rgba c) { return IM_COL32(c.r, c.g, c.b, c.a); }
 inline ImVec2 as_imvec(cv::Point2d p) { return {static_cast<float>(p.x), static_cast<float>(p.y)}; }

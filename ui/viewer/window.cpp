@@ -59,6 +59,7 @@ Window::Window(const std::string& title, cv::Size size) {
   glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
   glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
   glfwWindowHintString(GLFW_X11_CLASS_NAME, "saccade");
+  glfwWindowHintString(GLFW_X11_INSTANCE_NAME, "saccade");  // GLFW uses both or none
   window_ = glfwCreateWindow(size.width, size.height, title.c_str(), nullptr, nullptr);
   if (window_ == nullptr) {
     const std::string reason = glfw_reason();
