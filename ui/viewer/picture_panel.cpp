@@ -49,7 +49,10 @@ ImVec2 draw_chip(const ViewContext& view, ImVec2 corner, const std::string& text
 
 std::string title_of(const Computed& computed, const char* side) {
   const Settings& s = computed.settings;
-  return fmt::format("{}{}{}", side, s.model, needs_depth(s.model) ? fmt::format("  k {}", s.kernel) : "");
+  std::string title = fmt::format("{}{}", side, s.model);
+  if (needs_depth(s.model)) title += fmt::format("  k {}", s.kernel);
+  if (computed.draft) title += fmt::format("  draft of levels {}..{}", s.first_level, s.last_level);
+  return title;
 }
 
 // The palette with the values at its ends.

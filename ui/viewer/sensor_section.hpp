@@ -52,6 +52,7 @@ class SensorSection {
   };
   std::deque<Captured> captured_;               // of the last two seconds
   std::future<std::filesystem::path> writing_;  // the snapshot on its way to the disk
+  bool snapshot_due_ = false;                   // as soon as the map is whole
   std::string snapshot_, snapshot_error_;
   bool recording_told_ = true;  // how the last one ended
 };
