@@ -1,5 +1,6 @@
 #include "ui/engine.hpp"
 
+#include <algorithm>
 #include <exception>
 
 #include "saliency/params.hpp"
@@ -87,23 +88,26 @@ void Engine::prepare(const Settings& settings, cv::Size image) {
 }
 
 std::optional<Settings> draft_of(Settings settings, cv::Size image) {
-  // The sweep over the window grows with its area, the rest is as much as 10 x 10 points of it.
-  constexpr double kMostWork = 640 * 480 * 4 / 3 * (21 * 21 + 110), kRest = 110;
+  // The sweep over the window grows with its area, the rest is as much as 110 points of it.
+  constexpr double kMostWork = 640 * 480 * 4.0 / 3 * (21 * 21 + 110), kRest = 110;
   if (!needs_depth(settings.model)) return std::nullopt;
   settings.last_level = last_level_for(settings, image);
-  const double window = settings.kernel * settings.kernel + kRest;
-  double work = 0;
-  int first = settings.last_level + 1;
-  while (first > settings.first_level) {
-    work += level_size(image, first - 1).area() * window;
-    if (work > kMostWork) break;
-    --first;
+  const int deepest = deepest_level(image);
+  const auto work = [&] {
+    double pixels = 0;
+    for (int level = settings.first_level; level <= settings.last_level; ++level)
+      pixels += level_size(image, level).area();
+    return pixels * (settings.kernel * settings.kernel + kRest);
+  };
+  bool reduced = false;
+  while (work() > kMostWork && settings.first_level < deepest && settings.kernel >= 6) {
+    ++settings.first_level;
+    settings.last_level = std::min(settings.last_level + 1, deepest);
+    settings.kernel /= 2;
+    reduced = true;
   }
-  first = std::min(first, settings.last_level);  // one at least
-  if (first <= settings.first_level) return std::nullopt;
   settings.levels_chosen = true;
-  settings.first_level = first;
-  return settings;
+  return reduced ? std::optional(settings) : std::nullopt;
 }
 
 }  // namespace saccade

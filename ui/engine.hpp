@@ -35,8 +35,9 @@ class Engine {
 /// wanted.
 bool has_maps(const Computed& of, Settings settings, SaliencyWants wants);
 
-/// The settings of a first draft for images of this size: the coarse levels alone, for which the operator
-/// needs about 50 ms on two processors. None if all levels together need no longer, or the model has none.
+/// The settings of a first draft for images of this size, of at most about 50 ms of the operator on two
+/// processors: windows of about the same size on the image, from coarser levels with smaller kernels. None if
+/// the settings themselves take no longer, or their model has no levels.
 std::optional<Settings> draft_of(Settings settings, cv::Size image);
 
 }  // namespace saccade

@@ -15,7 +15,7 @@ namespace saccade {
 struct Computed {
   Settings settings;    ///< with which it was computed; the default levels cut to what the frame has
                         ///< room for
-  bool draft = false;   ///< of the coarse levels only; see draft_of()
+  bool draft = false;   ///< of coarser levels; see draft_of()
   SaliencyWants wants;  ///< by-products that were asked for
   Result result;        ///< the frame too
   cv::Mat1f smooth;     ///< smooth_for_looking() of the map

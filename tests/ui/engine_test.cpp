@@ -90,25 +90,27 @@ TEST(Engine, ComputesTheSameAfterAnInterruption) {
   expect_same(out, anew);
 }
 
-TEST(Draft, IsOfTheCoarseLevelsOfWhatTakesLong) {
-  const auto first_level = [](Settings settings, cv::Size size) {
-    const auto draft = draft_of(settings, size);
-    return draft ? draft->first_level : -1;
+TEST(Draft, IsOfCoarserLevelsWhereItTakesLong) {
+  struct Case {
+    int kernel;
+    cv::Size size;
+    int draft_kernel, first_level, last_level;  // kernel 0: no draft
   };
-  EXPECT_EQ(first_level(with_kernel(15), {640, 480}), -1);
-  EXPECT_EQ(first_level(with_kernel(21), {640, 480}), -1);
-  EXPECT_EQ(first_level(with_kernel(25), {640, 480}), 1);
-  EXPECT_EQ(first_level(with_kernel(61), {640, 480}), 2);
-  EXPECT_EQ(first_level(with_kernel(127), {640, 480}), 3);
-  EXPECT_EQ(first_level(with_kernel(127), {64, 48}), -1);
-  EXPECT_EQ(first_level(with_kernel(127), {1920, 1080}), 4);
+  for (const Case& c :
+       {Case{15, {640, 480}, 0, 0, 0}, Case{21, {640, 480}, 0, 0, 0}, Case{25, {640, 480}, 12, 1, 5},
+        Case{91, {640, 480}, 45, 1, 5}, Case{127, {640, 480}, 31, 2, 6}, Case{127, {64, 48}, 0, 0, 0},
+        Case{127, {1920, 1080}, 31, 2, 6}, Case{15, {1920, 1080}, 7, 1, 5}}) {
+    const auto draft = draft_of(with_kernel(c.kernel), c.size);
+    SCOPED_TRACE(testing::Message() << "k " << c.kernel << ", " << c.size);
+    ASSERT_EQ(draft.has_value(), c.draft_kernel > 0);
+    if (!draft) continue;
+    EXPECT_EQ(draft->kernel, c.draft_kernel);
+    EXPECT_EQ(draft->first_level, c.first_level);
+    EXPECT_EQ(draft->last_level, c.last_level);
+  }
   Settings settings = with_kernel(127);
   settings.model = "itti";
-  EXPECT_EQ(first_level(settings, {640, 480}), -1) << "it has no levels to begin with";
-  settings = with_kernel(127);
-  settings.levels_chosen = true;
-  settings.first_level = settings.last_level = 2;
-  EXPECT_EQ(first_level(settings, {640, 480}), -1) << "there is nothing coarser";
+  EXPECT_FALSE(draft_of(settings, {640, 480})) << "it has no levels to begin with";
 }
 
 class TunableProcessorTest : public ::testing::Test {

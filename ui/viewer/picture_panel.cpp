@@ -50,8 +50,10 @@ ImVec2 draw_chip(const ViewContext& view, ImVec2 corner, const std::string& text
 std::string title_of(const Computed& computed, const char* side) {
   const Settings& s = computed.settings;
   std::string title = fmt::format("{}{}", side, s.model);
-  if (needs_depth(s.model)) title += fmt::format("  k {}", s.kernel);
-  if (computed.draft) title += fmt::format("  draft of levels {}..{}", s.first_level, s.last_level);
+  if (computed.draft)
+    title += fmt::format("  draft: k {} on levels {}..{}", s.kernel, s.first_level, s.last_level);
+  else if (needs_depth(s.model))
+    title += fmt::format("  k {}", s.kernel);
   return title;
 }
 
