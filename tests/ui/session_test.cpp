@@ -193,6 +193,15 @@ TEST_F(SessionTest, AsFastAsPossibleComputesEveryFrame) {
   EXPECT_EQ(session->state().ledger.dropped, 0);
 }
 
+TEST_F(SessionTest, TellsWhetherItComputes) {
+  const auto session = make();
+  session->playback().set_speed(0);
+  session->open({.uri = "ball"});
+  EXPECT_TRUE(wait_for([&] { return session->state().computing; }));
+  session->playback().pause();
+  EXPECT_TRUE(wait_for([&] { return !session->state().computing; }));
+}
+
 TEST_F(SessionTest, OpeningOverAndOverEndsWithTheNewest) {
   const auto session = make();
   for (int i = 0; i < 20; ++i) session->open({.uri = "ball" + std::to_string(i)});
