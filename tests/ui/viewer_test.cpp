@@ -150,12 +150,12 @@ TEST_F(ViewerTest, PlaysTunesComparesAndQuits) {
 
   hand("key bracketright");
   EXPECT_TRUE(until([](const Json& j) { return shown(j, "kernel") == 17 && shown(j, "index") == 8; }));
-  drag("kernel", 0.15, 0.6);
-  EXPECT_TRUE(until([](const Json& j) { return j["kernel"] > 60 && shown(j, "kernel") == j["kernel"]; }));
+  drag("kernel", 0.15, 0.3);
+  EXPECT_TRUE(until([](const Json& j) { return j["kernel"] > 30 && shown(j, "kernel") == j["kernel"]; }));
   hand("key ctrl+z");
   EXPECT_TRUE(until([](const Json& j) { return shown(j, "kernel") == 17; })) << "the drag was one step";
   hand("key ctrl+shift+z");
-  EXPECT_TRUE(until([](const Json& j) { return shown(j, "kernel") > 60; }));
+  EXPECT_TRUE(until([](const Json& j) { return shown(j, "kernel") > 30; }));
   hand("key m");
   EXPECT_TRUE(until([](const Json& j) { return shown(j, "model") == "combined"; }));
 
@@ -256,6 +256,22 @@ TEST_F(ViewerTest, AnErrorLeavesTheWindowAlive) {
   EXPECT_NE(now()["errors"][0].get<std::string>().find("/no/such.oni"), std::string::npos);
   type_source("synthetic:sphere");
   EXPECT_TRUE(until([](const Json& j) { return j["errors"].empty() && j.contains("shown"); }));
+}
+
+TEST_F(ViewerTest, ShowsADraftOfWhatTakesLongAndGoesOnDrawing) {
+  start({kTable, "--paused", "--kernel", "61"});
+  const auto whole = [](int kernel) {
+    return [kernel](const Json& j) { return shown(j, "kernel") == kernel && shown(j, "draft") == false; };
+  };
+  ASSERT_TRUE(until(whole(61)));
+  hand("key bracketleft");
+  ASSERT_TRUE(until(whole(59)));
+  const std::int64_t generation = now()["generation"];
+  int with_draft = 0;
+  for (const Json& j : lines())
+    if (j["generation"] == generation && shown(j, "generation") == generation && shown(j, "draft") == true)
+      ++with_draft;
+  EXPECT_GE(with_draft, 3) << "frames of the window between the draft and the whole";
 }
 
 TEST_F(ViewerTest, IdleItDrawsNothing) {

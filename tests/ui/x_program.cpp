@@ -77,12 +77,20 @@ void XProgramTest::start(const std::vector<std::string>& arguments) {
 
 int XProgramTest::wait_for_exit() { return exit_status(std::exchange(program_, -1)); }
 
+std::vector<Json> XProgramTest::lines() const {
+  std::ifstream log(folder_ / "log");
+  std::vector<Json> all;
+  for (std::string line; std::getline(log, line);)
+    if (!log.eof()) all.push_back(Json::parse(line, nullptr, false));  // the last may be on its way
+  return all;
+}
+
 Json XProgramTest::now() const {
   std::ifstream log(folder_ / "log");
-  Json newest;
+  std::string newest;
   for (std::string line; std::getline(log, line);)
-    if (!log.eof()) newest = Json::parse(line, nullptr, false);  // the last line may be on its way
-  return newest;
+    if (!log.eof()) newest.swap(line);
+  return newest.empty() ? Json() : Json::parse(newest, nullptr, false);
 }
 
 ::testing::AssertionResult XProgramTest::until(const std::function<bool(const Json&)>& condition) const {

@@ -57,8 +57,11 @@ void draw_title(const ViewContext& view, const Computed& computed, const Picture
   const float pad = view.px(8), room = side.clip_high.x - side.clip_low.x - 2 * pad;
   const Settings& s = computed.settings;
   const std::string letter = !view.state.comparing() ? "" : side.is_b ? "B" : "A";
-  std::string text = fmt::format("{}{}{}{}", letter, letter.empty() ? "" : "  ", s.model,
-                                 needs_depth(s.model) ? fmt::format("  kernel {}", s.kernel) : "");
+  std::string text = fmt::format("{}{}{}", letter, letter.empty() ? "" : "  ", s.model);
+  if (computed.draft)
+    text += fmt::format("  draft: kernel {} on levels {}..{}", s.kernel, s.first_level, s.last_level);
+  else if (needs_depth(s.model))
+    text += fmt::format("  kernel {}", s.kernel);
   if (chip_size(view, text).x > room) text = letter;
   const float width = chip_size(view, text).x;
   const float y = side.clip_low.y + pad;

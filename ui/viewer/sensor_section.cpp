@@ -79,6 +79,7 @@ void SensorSection::end_recording() {
 
 void SensorSection::take_news(ViewContext& view) {
   take_snapshot_result(view);
+  if (snapshot_due_) snapshot(view);
   view.recording = recording_->status();
   if (recording_told_ || view.recording.phase != RecordingStatus::Phase::idle) return;
   recording_told_ = true;
@@ -91,6 +92,8 @@ void SensorSection::take_news(ViewContext& view) {
 
 void SensorSection::snapshot(ViewContext& view) {
   if (!view.result || writing_.valid()) return;
+  snapshot_due_ = view.result->draft;  // the whole map is on its way
+  if (snapshot_due_) return;
   snapshot_ = "writing the snapshot ...";
   snapshot_error_.clear();
   OverlayStyle style = view.state.style;

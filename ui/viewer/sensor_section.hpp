@@ -49,6 +49,7 @@ class SensorSection {
   std::chrono::steady_clock::time_point looked_{};
   std::optional<std::uint64_t> free_bytes_;     // of the folder's disk
   std::future<std::filesystem::path> writing_;  // the snapshot on its way to the disk
+  bool snapshot_due_ = false;                   // as soon as the map is whole
   std::string snapshot_, snapshot_error_;
   bool recording_told_ = true;  // how the last one ended
 };

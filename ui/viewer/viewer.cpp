@@ -15,7 +15,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr int kFramesAfterEvent = 3;  // ImGui's layout settles with the second, hovering with the third
-constexpr double kSlowRefresh_s = 0.25, kIdle_s = 60, kSettling_s = 0.03;
+constexpr double kSlowRefresh_s = 0.25, kIdle_s = 60, kHeartbeat_s = 0.025;
 
 bool same_wishes(const Wishes& x, const Wishes& y) {
   return same_settings(x.a, y.a) && x.b.has_value() == y.b.has_value() &&
@@ -53,8 +53,7 @@ Viewer::Viewer(ViewState state, ViewerOptions options, Session::Open open_functi
 
 void Viewer::run() {
   while (!window_.should_close()) {
-    // Drawing that only settles the layout must not take the processor from the result that is awaited.
-    window_.wait(frames_due_ == 0 ? idle_s() : awaits_result() ? kSettling_s : 0);
+    window_.wait(frames_due_ == 0 ? idle_s() : 0);
     const auto begin = Clock::now();
     if (stopped_) window_.close();
     const bool event = window_.take_event();
@@ -63,7 +62,7 @@ void Viewer::run() {
       frames_due_ = kFramesAfterEvent;
     else if (woken)
       frames_due_ = std::max(frames_due_, view_.playback.paused ? kFramesAfterEvent : 1);
-    else if (refresh_)
+    else if (refresh_ || computing())
       frames_due_ = std::max(frames_due_, 1);
     take_news();
     if (window_.hidden()) frames_due_ = 0;
@@ -72,6 +71,7 @@ void Viewer::run() {
     draw_frame();
     const double busy_ms = std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
     ++frames_;
+    drawn_at_ = begin;
     view_.busy_ms = busy_ms;
     view_.longest_ms = std::max(view_.longest_ms, busy_ms);
     log_frame(busy_ms);
@@ -85,12 +85,19 @@ void Viewer::stop() noexcept {
   Window::wake();
 }
 
-double Viewer::idle_s() const { return refresh_ ? kSlowRefresh_s : kIdle_s; }
+double Viewer::idle_s() const {
+  if (!computing()) return refresh_ ? kSlowRefresh_s : kIdle_s;
+  const double since_s = std::chrono::duration<double>(Clock::now() - drawn_at_).count();
+  return std::max(kHeartbeat_s - since_s, 1e-3);
+}
+
+// While it computes the window shows that it lives, however long that takes.
+bool Viewer::computing() const { return view_.source.computing || awaits_result(); }
 
 // A wish was sent and what it makes of the frame is on its way.
 bool Viewer::awaits_result() const {
   return view_.source.phase == SessionState::Phase::open && view_.result &&
-         view_.result->generation < generation_;
+         (view_.result->generation < generation_ || view_.result->draft);
 }
 
 // What the session has for us; cheap, and done while the window is hidden too.
@@ -214,8 +221,8 @@ void Viewer::open(const std::string& uri) {
 }
 
 void Viewer::before_show() {
-  if (options_.screenshot.empty() || !view_.result || view_.result->serial < options_.after_frames ||
-      view_.result->generation < generation_)
+  if (options_.screenshot.empty() || !view_.result || view_.result->computed < options_.after_frames ||
+      awaits_result())
     return;
   frames_due_ = kFramesAfterEvent;
   if (--shot_countdown_ > 0) return;
@@ -258,12 +265,16 @@ void Viewer::log_frame(double busy_ms) {
   if (view_.result) {
     const Computed& shown = view_.result->a;
     const cv::Size size = view_.result->frame().size();
-    line["shown"] = {
-        {"index", view_.result->frame().index},   {"serial", view_.result->serial},
-        {"generation", view_.result->generation}, {"model", shown.settings.model},
-        {"kernel", shown.settings.kernel},        {"fixations", shown.result.attention.fixations.size()},
-        {"compared", view_.result->compared},     {"error", shown.error},
-        {"size", {size.width, size.height}}};
+    line["shown"] = {{"index", view_.result->frame().index},
+                     {"size", {size.width, size.height}},
+                     {"serial", view_.result->serial},
+                     {"generation", view_.result->generation},
+                     {"model", shown.settings.model},
+                     {"kernel", shown.settings.kernel},
+                     {"fixations", shown.result.attention.fixations.size()},
+                     {"compared", view_.result->compared},
+                     {"error", shown.error},
+                     {"draft", view_.result->draft}};
   }
   log_->append(line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
 }

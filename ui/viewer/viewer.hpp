@@ -46,6 +46,7 @@ class Viewer {
 
  private:
   double idle_s() const;
+  bool computing() const;
   bool awaits_result() const;
   void take_news();
   void take_errors();
@@ -95,6 +96,7 @@ class Viewer {
   std::string told_error_;
   std::optional<LineFile> log_;
   std::int64_t frames_ = 0;
+  std::chrono::steady_clock::time_point drawn_at_{};
   int shot_countdown_ = 3;  // frames for the layout to settle
 };
 
