@@ -2,45 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
-#include <tuple>
 
 #include <OpenNI.h>
 #include <fmt/format.h>
 #include <opencv2/imgproc.hpp>
 
 #include "core/error.hpp"
+#include "drivers/openni2_modes.hpp"
 
 namespace saccade {
 namespace {
 
 constexpr const char* kHint = "saccade doctor looks for the reason";
-
-std::string to_text(const SensorMode& mode) {
-  return fmt::format("{}x{}@{}", mode.width, mode.height, mode.rate_hz);
-}
-
-SensorMode to_mode(const openni::VideoMode& mode) {
-  return {mode.getResolutionX(), mode.getResolutionY(), mode.getFps()};
-}
-
-// The modes of one stream in the formats that can be used, the better format first where both exist.
-struct Modes {
-  std::vector<SensorMode> modes;
-  std::vector<const openni::VideoMode*> originals;
-};
-
-Modes usable_modes(const openni::SensorInfo& sensor, std::initializer_list<openni::PixelFormat> formats) {
-  Modes usable;
-  const auto& all = sensor.getSupportedVideoModes();
-  for (const openni::PixelFormat format : formats)
-    for (int i = 0; i < all.getSize(); ++i)
-      if (all[i].getPixelFormat() == format) {
-        usable.modes.push_back(to_mode(all[i]));
-        usable.originals.push_back(&all[i]);
-      }
-  return usable;
-}
 
 // Why a frame's memory cannot be an image of this size; empty if it can.
 std::string bad_buffer(const openni::VideoFrameRef& frame, cv::Size size, int bytes_per_pixel) {
@@ -95,17 +68,6 @@ struct OpenNi2Device::Streams {
   openni::VideoStream* all[2] = {&depth, &colour};
 };
 
-int nearest_mode(std::span<const SensorMode> offered, const SensorMode& wanted) {
-  const auto distance = [&](const SensorMode& mode) {
-    return std::tuple(std::abs(mode.width - wanted.width) + std::abs(mode.height - wanted.height),
-                      std::abs(mode.rate_hz - wanted.rate_hz));
-  };
-  const auto nearest = std::min_element(offered.begin(), offered.end(), [&](const auto& a, const auto& b) {
-    return distance(a) < distance(b);
-  });
-  return nearest == offered.end() ? -1 : static_cast<int>(nearest - offered.begin());
-}
-
 OpenNi2Device::OpenNi2Device(const DeviceIdentity& identity, const SensorSettings& settings,
                              const SensorValues& wanted)
     : identity_(identity), streams_(std::make_unique<Streams>()) {
@@ -134,18 +96,18 @@ OpenNi2Device::~OpenNi2Device() = default;
 bool OpenNi2Device::has_colour() const { return streams_->colour.isValid(); }
 
 void OpenNi2Device::choose_modes(const std::optional<SensorMode>& wanted) {
-  const Modes usable = usable_modes(*streams_->device.getSensorInfo(openni::SENSOR_DEPTH),
-                                    {openni::PIXEL_FORMAT_DEPTH_1_MM, openni::PIXEL_FORMAT_DEPTH_100_UM});
-  const int index = nearest_mode(usable.modes, wanted.value_or(SensorMode{}));
+  const std::vector<OfferedMode> offered = depth_modes(streams_->device);
+  modes_ = names_of(offered);
+  const int index = nearest_mode(modes_, wanted.value_or(SensorMode{}));
   if (index < 0) throw failed("the device has no depth mode that can be used", identity_.uri, kHint);
-  const SensorMode& nearest = usable.modes[static_cast<std::size_t>(index)];
-  if (wanted && nearest != *wanted) {
-    std::vector<std::string> offered;
-    for (const SensorMode& mode : usable.modes) offered.push_back(to_text(mode));
+  const OfferedMode& nearest = offered[static_cast<std::size_t>(index)];
+  if (wanted && nearest.mode != *wanted) {
+    std::vector<std::string> texts;
+    for (const SensorMode& mode : modes_) texts.push_back(to_text(mode));
     throw usage_error(fmt::format("the device has no mode {}", to_text(*wanted)), identity_.uri,
-                      fmt::format("--mode takes one of {}", fmt::join(offered, ", ")));
+                      fmt::format("--mode takes one of {}", fmt::join(texts, ", ")));
   }
-  streams_->depth.setVideoMode(*usable.originals[static_cast<std::size_t>(index)]);
+  streams_->depth.setVideoMode(nearest.original);
   const SensorMode mode = to_mode(streams_->depth.getVideoMode());
   if (mode != wanted.value_or(SensorMode{}))
     notes_.push_back(
@@ -156,15 +118,14 @@ void OpenNi2Device::choose_modes(const std::optional<SensorMode>& wanted) {
 }
 
 void OpenNi2Device::choose_colour_mode(const SensorMode& depth) {
-  const Modes usable =
-      usable_modes(*streams_->device.getSensorInfo(openni::SENSOR_COLOR), {openni::PIXEL_FORMAT_RGB888});
-  const int index = nearest_mode(usable.modes, depth);
+  const std::vector<OfferedMode> offered = colour_modes(streams_->device);
+  const int index = nearest_mode(names_of(offered), depth);
   if (index < 0) {
     notes_.emplace_back("the colour stream has no format that can be used; there is depth only");
     streams_->colour.destroy();
     return;
   }
-  streams_->colour.setVideoMode(*usable.originals[static_cast<std::size_t>(index)]);
+  streams_->colour.setVideoMode(offered[static_cast<std::size_t>(index)].original);
   const SensorMode mode = to_mode(streams_->colour.getVideoMode());
   if (mode.width != depth.width || mode.height != depth.height)
     notes_.push_back(fmt::format("colour is {}x{} and is scaled to the depth's {}x{}", mode.width,

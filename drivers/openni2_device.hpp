@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -18,8 +17,7 @@
 namespace saccade {
 
 /// One open sensor of OpenNI2 with its depth stream and, where it has one, its colour stream.
-/// Thread safety: one thread at a time, from construction to destruction: OpenNI2 does not bear that one
-/// thread stops a stream for which another waits.
+/// Thread safety: on_openni2_thread() only, from construction to destruction.
 class OpenNi2Device {
  public:
   enum class Ready { nothing, depth, colour };
@@ -35,6 +33,7 @@ class OpenNi2Device {
   const DeviceIdentity& identity() const { return identity_; }
   cv::Size size() const { return size_; }  ///< of depth, and so of every frame
   int rate_hz() const { return rate_hz_; }
+  const std::vector<SensorMode>& modes() const { return modes_; }  ///< in which it can give depth
   bool has_colour() const;
   /// From the field of view that the device tells, of the camera that depth is seen from: with registration
   /// that is the colour camera. A guess where it tells none.
@@ -70,14 +69,11 @@ class OpenNi2Device {
   std::unique_ptr<Streams> streams_;
   cv::Size size_;
   int rate_hz_ = 0;
+  std::vector<SensorMode> modes_;
   Intrinsics intrinsics_;
   SensorValues values_;
   std::vector<std::string> notes_;
   std::size_t opening_notes_ = 0;  // so many are of the opening, the others of the last apply()
 };
-
-/// The position in `offered` of the mode that comes nearest to `wanted`, first by size, then by rate; -1 if
-/// there is none.
-int nearest_mode(std::span<const SensorMode> offered, const SensorMode& wanted);
 
 }  // namespace saccade

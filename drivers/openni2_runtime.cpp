@@ -3,11 +3,11 @@
 #include <sched.h>
 
 #include <algorithm>
-#include <thread>
 
 #include <OpenNI.h>
 
 #include "core/error.hpp"
+#include "drivers/openni2_thread.hpp"
 
 namespace saccade {
 namespace {
@@ -17,17 +17,17 @@ DeviceIdentity identity_of(const openni::DeviceInfo& info) {
 }
 
 // Why it could not; empty if it could. OpenNI2 moves to the folder of its modules while it loads them, which
-// would lead astray whoever opens a relative path just then. So it starts on a thread whose working directory
-// is its own; where a sandbox does not allow that, it starts all the same.
+// would lead astray whoever opens a relative path just then. So the thread that uses it gets a working
+// directory of its own; where a sandbox does not allow that, it starts all the same.
 std::string start_openni2() {
   std::string why;
-  std::thread([&why] {
+  on_openni2_thread([&why] {
     ::unshare(CLONE_FS);
     if (openni::OpenNI::initialize() == openni::STATUS_OK) return;
     why = openni::OpenNI::getExtendedError();
     openni::OpenNI::shutdown();
     if (why.empty()) why = "it does not say why";
-  }).join();
+  });
   return why;
 }
 
@@ -87,23 +87,29 @@ OpenNi2Runtime& OpenNi2Runtime::instance() {
 OpenNi2Runtime::OpenNi2Runtime() : listener_(std::make_unique<Listener>()) {
   if (const std::string why = start_openni2(); !why.empty())
     throw failed("OpenNI2 does not start", why, "saccade doctor looks for the reason");
-  openni::OpenNI::addDeviceConnectedListener(listener_.get());
-  openni::OpenNI::addDeviceDisconnectedListener(listener_.get());
-  openni::OpenNI::addDeviceStateChangedListener(listener_.get());
+  on_openni2_thread([this] {
+    openni::OpenNI::addDeviceConnectedListener(listener_.get());
+    openni::OpenNI::addDeviceDisconnectedListener(listener_.get());
+    openni::OpenNI::addDeviceStateChangedListener(listener_.get());
+  });
 }
 
 OpenNi2Runtime::~OpenNi2Runtime() {
-  openni::OpenNI::removeDeviceConnectedListener(listener_.get());
-  openni::OpenNI::removeDeviceDisconnectedListener(listener_.get());
-  openni::OpenNI::removeDeviceStateChangedListener(listener_.get());
-  openni::OpenNI::shutdown();
+  on_openni2_thread([this] {
+    openni::OpenNI::removeDeviceConnectedListener(listener_.get());
+    openni::OpenNI::removeDeviceDisconnectedListener(listener_.get());
+    openni::OpenNI::removeDeviceStateChangedListener(listener_.get());
+    openni::OpenNI::shutdown();
+  });
 }
 
 std::vector<DeviceIdentity> OpenNi2Runtime::devices() const {
-  openni::Array<openni::DeviceInfo> list;
-  openni::OpenNI::enumerateDevices(&list);
   std::vector<DeviceIdentity> devices;
-  for (int i = 0; i < list.getSize(); ++i) devices.push_back(identity_of(list[i]));
+  on_openni2_thread([&devices] {
+    openni::Array<openni::DeviceInfo> list;
+    openni::OpenNI::enumerateDevices(&list);
+    for (int i = 0; i < list.getSize(); ++i) devices.push_back(identity_of(list[i]));
+  });
   return devices;
 }
 

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "drivers/openni2_thread.hpp"
 
 namespace saccade {
 namespace {
@@ -56,11 +57,6 @@ milliseconds time_left(std::chrono::steady_clock::time_point deadline) {
   return std::chrono::ceil<milliseconds>(deadline - std::chrono::steady_clock::now());
 }
 
-std::int64_t microseconds_between(std::chrono::steady_clock::time_point from,
-                                  std::chrono::steady_clock::time_point to) {
-  return std::chrono::duration_cast<std::chrono::microseconds>(to - from).count();
-}
-
 }  // namespace
 
 OpenNi2Source::OpenNi2Source(const std::string& uri, const SensorSettings& settings)
@@ -90,7 +86,9 @@ OpenNi2Source::OpenNi2Source(const std::string& uri, const SensorSettings& setti
   info_.notes = device_->notes();
 }
 
-OpenNi2Source::~OpenNi2Source() = default;
+OpenNi2Source::~OpenNi2Source() {
+  if (device_) on_openni2_thread([&] { device_.reset(); });
+}
 
 void OpenNi2Source::seek(std::int64_t) {
   throw std::logic_error("a live sensor has no other frame to go to");
@@ -115,6 +113,11 @@ SensorValues OpenNi2Source::values() const {
   return values_;
 }
 
+std::vector<SensorMode> OpenNi2Source::modes() const {
+  const std::lock_guard lock(mutex_);
+  return modes_;
+}
+
 void OpenNi2Source::request(const SensorValues& wanted) {
   const std::lock_guard lock(mutex_);
   lay_over(wanted_, wanted);
@@ -128,9 +131,10 @@ void OpenNi2Source::apply_requests() {
     requested = std::exchange(requested_, {});
   }
   if (requested == SensorValues{}) return;
-  device_->apply(requested);
+  on_openni2_thread([&] { device_->apply(requested); });
   const std::lock_guard lock(mutex_);
   values_ = device_->values();
+  state_.notes = device_->notes();
 }
 
 void OpenNi2Source::interrupt() noexcept {
@@ -190,7 +194,7 @@ void OpenNi2Source::try_to_connect() {
     requested_ = {};
   }
   try {
-    device_ = std::make_unique<OpenNi2Device>(found, settings_, wanted);
+    on_openni2_thread([&] { device_ = std::make_unique<OpenNi2Device>(found, settings_, wanted); });
   } catch (const Error& error) {
     if (error.status() == ExitStatus::usage) throw;
     last_failure_ = error.what();
@@ -214,29 +218,31 @@ void OpenNi2Source::took_device() {
   last_device_ = device_->identity();
   last_failure_.clear();
   back_off_ = kFirstBackOff;
-  period_us_ = 1'000'000 / std::max(1, device_->rate_hz());
-  last_depth_us_.reset();
+  pairing_.restart(1'000'000 / std::max(1, device_->rate_hz()), device_->has_colour());
+  clock_.restart();
   opened_at_ = Clock::now();
   frames_since_opening_ = false;
-  clock_offset_us_.reset();
-  pending_us_.reset();
-  for (TimedColour& colour : colours_) colour.time_us.reset();
   {
     const std::lock_guard lock(mutex_);
     values_ = device_->values();
+    modes_ = device_->modes();
+    state_.notes = device_->notes();
   }
   if (first) set_state(Connection::streaming, name_of(*last_device_), opened_at_);
 }
 
 std::optional<ReadResult> OpenNi2Source::poll_device(Frame& frame, Clock::time_point deadline) {
+  if (bad_frame_) return reject(frame);
   apply_requests();
   if (const std::string why = reason_of_loss(); !why.empty()) {
-    if (pending_us_) return deliver(frame);
+    if (pairing_.has_depth()) return deliver(frame);
     lose(why);
     return ReadResult{ReadStatus::timeout, ""};  // at once, so that a short loss is seen, too
   }
   const milliseconds slice = std::clamp(time_left(deadline), milliseconds(0), kPoll);
-  switch (device_->wait(slice)) {
+  auto ready = OpenNi2Device::Ready::nothing;
+  on_openni2_thread([&] { ready = device_->wait(slice); });
+  switch (ready) {
     case OpenNi2Device::Ready::depth:
       if (auto result = take_depth(frame)) return result;
       break;
@@ -246,85 +252,52 @@ std::optional<ReadResult> OpenNi2Source::poll_device(Frame& frame, Clock::time_p
     case OpenNi2Device::Ready::nothing:
       break;
   }
-  if (pending_us_ && pending_is_ripe()) return deliver(frame);
+  if (pairing_.is_ripe()) return deliver(frame);
+  if (bad_frame_) return reject(frame);
   return std::nullopt;
 }
 
-// A rejected frame is given at once; a good one becomes the pending one, and drives out the one before.
+// A good frame waits for its colour. It drives out the one that waits, which comes first; so does a bad one.
 std::optional<ReadResult> OpenNi2Source::take_depth(Frame& frame) {
   std::int64_t time_us = 0;
-  const std::string bad = device_->read_depth(depth_, time_us);
+  std::string bad;
+  on_openni2_thread([&] { bad = device_->read_depth(depth_, time_us); });
   came_back();
-  if (!bad.empty()) {
-    frame.index = next_index_++;
-    frame.timestamp_us = continuous_time(time_us);
-    return ReadResult{ReadStatus::rejected, bad};
-  }
-  std::optional<ReadResult> result;
-  if (pending_us_) result = deliver(frame);
-  cv::swap(depth_, pending_);
-  pending_us_ = time_us;
-  if (last_depth_us_ && time_us > *last_depth_us_)
-    period_us_ = std::min(period_us_, time_us - *last_depth_us_);
-  last_depth_us_ = time_us;
-  return result;
+  std::optional<ReadResult> before;
+  if (pairing_.has_depth()) before = deliver(frame);
+  if (bad.empty())
+    pairing_.put_depth(depth_, time_us);
+  else
+    bad_frame_ = BadFrame{time_us, std::move(bad)};
+  return before;
 }
 
 void OpenNi2Source::take_colour() {
-  TimedColour& older = colours_[1 - newest_colour_];
   std::int64_t time_us = 0;
-  older.time_us.reset();
-  if (!device_->read_colour(older.image, time_us).empty()) return;
-  older.time_us = time_us;
-  newest_colour_ = 1 - newest_colour_;
+  std::string bad;
+  on_openni2_thread([&] { bad = device_->read_colour(colour_, time_us); });
+  if (bad.empty()) pairing_.put_colour(colour_, time_us);
 }
 
-const OpenNi2Source::TimedColour* OpenNi2Source::colour_of_pending() const {
-  const TimedColour* best = nullptr;
-  // Within half a period it is of no other depth frame, and none that comes later is nearer.
-  std::int64_t least_us = period_us_ / 2;
-  for (const TimedColour& colour : colours_) {
-    if (!colour.time_us) continue;
-    const std::int64_t apart_us = std::abs(*colour.time_us - *pending_us_);
-    if (apart_us > least_us) continue;
-    best = &colour;
-    least_us = apart_us;
-  }
-  return best;
-}
-
-// Its colour is there, or will not come any more.
-bool OpenNi2Source::pending_is_ripe() const {
-  if (!device_->has_colour() || colour_of_pending() != nullptr) return true;
-  const auto& newest_us = colours_[newest_colour_].time_us;
-  return newest_us && *newest_us > *pending_us_;
+ReadResult OpenNi2Source::reject(Frame& frame) {
+  const BadFrame bad = *std::exchange(bad_frame_, std::nullopt);
+  frame.index = next_index_++;
+  frame.timestamp_us = clock_.time_us(bad.time_us, Clock::now());
+  return {ReadStatus::rejected, bad.reason};
 }
 
 ReadResult OpenNi2Source::deliver(Frame& frame) {
-  const TimedColour* colour = colour_of_pending();
-  cv::swap(frame.depth_mm, pending_);
-  if (colour != nullptr)
-    colour->image.copyTo(frame.colour);
-  else
-    frame.colour.release();
+  const FramePairing::Taken taken = pairing_.take(frame.depth_mm, frame.colour);
   frame.index = next_index_++;
-  frame.timestamp_us = continuous_time(*pending_us_);
+  frame.timestamp_us = clock_.time_us(taken.time_us, Clock::now());
   frame.name.clear();
   frame.intrinsics = device_->intrinsics();
   frame.truth = {};
-  pending_us_.reset();
-  return {ReadStatus::frame, colour == nullptr && device_->has_colour() ? "no colour frame of its time" : ""};
-}
-
-// The first frame has the time 0; after a loss the machine's clock tells how long it took. Never goes back.
-std::int64_t OpenNi2Source::continuous_time(std::int64_t device_us) {
-  if (!first_frame_at_) first_frame_at_ = Clock::now();
-  if (!clock_offset_us_)
-    clock_offset_us_ =
-        std::max(microseconds_between(*first_frame_at_, Clock::now()), next_time_us_) - device_us;
-  const std::int64_t time_us = std::max(device_us + *clock_offset_us_, next_time_us_);
-  next_time_us_ = time_us + 1;
-  return time_us;
+  if (taken.colour_missed) {
+    const std::lock_guard lock(mutex_);
+    ++state_.colourless;
+  }
+  return {ReadStatus::frame, ""};
 }
 
 std::string OpenNi2Source::reason_of_loss() const {
@@ -338,7 +311,7 @@ std::string OpenNi2Source::reason_of_loss() const {
 
 void OpenNi2Source::lose(const std::string& why) {
   const std::string name = name_of(device_->identity());
-  device_.reset();
+  on_openni2_thread([&] { device_.reset(); });
   back_off_ = kFirstBackOff;
   next_try_ = Clock::now();
   if (!settings_.reconnect) throw failed("the sensor is lost: " + why, name, kHint);

@@ -27,25 +27,27 @@ void checkbox(const char* label, bool& value, const char* what) {
   explain(what);
 }
 
-void draw_choices(CloudPanelState& state) {
-  CloudChoices& choices = state.choices;
+void draw_choices(CloudChoices& choices, CloudPanelState& state) {
   const float em = ImGui::GetFontSize();
-  ImGui::SetCursorPos({ImGui::GetCursorPosX() + em / 4, ImGui::GetCursorPosY() + em / 4});
+  ImGui::SetCursorPosY(ImGui::GetCursorPosY() + em / 2);
+  ImGui::Indent(em / 2);
   ImGui::SetNextItemWidth(7 * em);
   int colour = static_cast<int>(choices.colour);
   if (ImGui::Combo("##colour", &colour, kColourNames.data(), static_cast<int>(kColourNames.size())))
     choices.colour = static_cast<CloudColour>(colour);
   explain("What gives the points their colour.");
-  checkbox("lit", choices.lit, "Points that turn away from you are darker.");
-  checkbox("normals", choices.needles, "Lines along the normals of the surface.");
-  checkbox("fixations", choices.fixations, "Numbered markers with their positions in mm.");
+  checkbox("Lit", choices.lit, "Points that turn away from you are darker.");
+  checkbox("Normals", choices.needles, "Lines along the normals of the surface.");
+  checkbox("Fixations", choices.fixations, "Numbered markers with their positions in mm.");
   continue_line("", 7.5F);
   ImGui::SetNextItemWidth(7 * em);
-  ImGui::SliderFloat("##size", &choices.point_size, 0.5F, 4, "points x%.1f");
+  ImGui::SliderFloat("##size", &choices.point_size, kSmallestPoint, kLargestPoint, "Points ×%.1f",
+                     ImGuiSliderFlags_AlwaysClamp);
   explain("The size of the points; 1 = as much as their pixel covers.");
-  continue_line("reset view", 1);
-  if (ImGui::Button("reset view")) state.placed = false;
+  continue_line("Reset view", 1);
+  if (ImGui::Button("Reset view")) state.placed = false;
   explain("Back to the sensor's own view; also by a double click.");
+  ImGui::Unindent(em / 2);
 }
 
 // Takes the pointer over the canvas, which is the last item.
@@ -129,9 +131,9 @@ OrbitCamera camera_for_frame(const Frame& frame) {
   return OrbitCamera::at_sensor(frame.intrinsics, frame.size(), target_mm);
 }
 
-void draw_cloud_panel(CloudPanelState& state, const Frame& frame, const Attention& attention,
-                      const std::function<ImTextureID(cv::Size)>& render) {
-  draw_choices(state);
+void draw_cloud_panel(CloudChoices& choices, CloudPanelState& state, const Frame& frame,
+                      const Attention& attention, const std::function<ImTextureID(cv::Size)>& render) {
+  draw_choices(choices, state);
   constexpr ImGuiWindowFlags kFlags = ImGuiWindowFlags_NoScrollWithMouse | ImGuiWindowFlags_NoScrollbar;
   if (ImGui::BeginChild("canvas", {0, 0}, false, kFlags)) {
     if (!state.placed) state.camera = camera_for_frame(frame);
@@ -149,7 +151,7 @@ void draw_cloud_panel(CloudPanelState& state, const Frame& frame, const Attentio
     if (texture != ImTextureID())
       ImGui::GetWindowDrawList()->AddImage(texture, corner, {corner.x + size.x, corner.y + size.y}, {0, 1},
                                            {1, 0});
-    if (state.choices.fixations) draw_fixations(state, attention.fixations, corner, viewport);
+    if (choices.fixations) draw_fixations(state, attention.fixations, corner, viewport);
   }
   ImGui::EndChild();
 }

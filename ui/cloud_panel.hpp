@@ -13,18 +13,8 @@
 
 namespace saccade {
 
-/// What a person has chosen in the panel. All but the camera is worth keeping.
-struct CloudChoices {
-  CloudColour colour = CloudColour::image;
-  bool lit = true;          ///< with light, for which normals are needed
-  bool needles = false;     ///< short lines along the normals
-  bool fixations = true;    ///< numbered markers with their positions
-  float point_size = 1.3F;  ///< 1 = a point covers what its pixel covers
-  bool operator==(const CloudChoices&) const = default;
-};
-
+/// From where the cloud is seen.
 struct CloudPanelState {
-  CloudChoices choices;
   OrbitCamera camera;
   bool placed = false;  ///< the camera is; false = at the next frame it goes back to the sensor's own view
 };
@@ -34,8 +24,8 @@ struct CloudPanelState {
 /// pointer, a double click goes back to the sensor's view. `render` draws the cloud in the given size in
 /// pixels and returns its texture, bottom row first; 0 = nothing. Within an ImGui window, on the thread that
 /// draws.
-void draw_cloud_panel(CloudPanelState& state, const Frame& frame, const Attention& attention,
-                      const std::function<ImTextureID(cv::Size)>& render);
+void draw_cloud_panel(CloudChoices& choices, CloudPanelState& state, const Frame& frame,
+                      const Attention& attention, const std::function<ImTextureID(cv::Size)>& render);
 
 /// The sensor's own view of a frame: its target is as far as the middle of what is seen.
 OrbitCamera camera_for_frame(const Frame& frame);

@@ -4,18 +4,23 @@
 
 namespace saccade {
 
-unsigned CloudScene::render(const CloudFrame& frame, const CloudPanelState& state, cv::Size size,
-                            bool light_theme) {
-  const Built wanted{frame.serial, state.choices, frame.style};
+unsigned CloudScene::render(const CloudFrame& frame, const CloudChoices& choices, const OrbitCamera& camera,
+                            cv::Size size, bool light_theme) {
+  const Built wanted{frame.serial, choices, frame.style};
   if (built_ != wanted) {
-    build(frame, state.choices);
+    build(frame, choices);
     built_ = wanted;
+    drawn_.reset();
   }
+  const Drawn drawing{camera, size, light_theme};
+  renewed_ = drawn_ != drawing;
+  if (!renewed_) return texture_;
   CloudLook look;
-  look.lit = state.choices.lit;
-  look.point_mm_per_m = static_cast<double>(state.choices.point_size) * 1000 / frame.frame.intrinsics.fx;
+  look.lit = choices.lit;
+  look.point_mm_per_m = static_cast<double>(choices.point_size) * 1000 / frame.frame.intrinsics.fx;
   if (light_theme) look.background = {0.86F, 0.87F, 0.89F};
-  return renderer_.draw(state.camera, size, look);
+  drawn_ = drawing;
+  return texture_ = renderer_.draw(camera, size, look);
 }
 
 void CloudScene::build(const CloudFrame& frame, const CloudChoices& choices) {

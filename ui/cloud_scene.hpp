@@ -4,8 +4,9 @@
 #include <optional>
 #include <vector>
 
-#include "ui/cloud_panel.hpp"
 #include "ui/cloud_renderer.hpp"
+#include "ui/orbit_camera.hpp"
+#include "ui/point_cloud.hpp"
 
 namespace saccade {
 
@@ -25,10 +26,21 @@ class CloudScene {
   /// Throws as CloudRenderer.
   CloudScene() = default;
 
-  /// Draws the frame as `state` asks for, and returns the texture; see CloudRenderer::draw().
-  unsigned render(const CloudFrame& frame, const CloudPanelState& state, cv::Size size, bool light_theme);
+  /// Draws the frame as it is asked for, if that is not what was drawn last, and returns the texture; see
+  /// CloudRenderer::draw().
+  unsigned render(const CloudFrame& frame, const CloudChoices& choices, const OrbitCamera& camera,
+                  cv::Size size, bool light_theme);
+
+  /// Whether the last render() drew.
+  bool renewed() const { return renewed_; }
 
  private:
+  struct Drawn {  // beside what was built
+    OrbitCamera camera;
+    cv::Size size;
+    bool light_theme;
+    bool operator==(const Drawn&) const = default;
+  };
   struct Built {  // from what
     std::int64_t serial;
     CloudChoices choices;
@@ -39,6 +51,9 @@ class CloudScene {
 
   CloudRenderer renderer_;
   std::optional<Built> built_;
+  std::optional<Drawn> drawn_;  // none: what was built is not drawn yet
+  unsigned texture_ = 0;
+  bool renewed_ = false;
   std::vector<CloudVertex> points_, lines_;
 };
 

@@ -10,6 +10,8 @@ namespace {
 
 constexpr std::array<std::string_view, kPalettes.size()> kNames = {"turbo", "viridis", "inferno", "gray"};
 
+constexpr int kFarShade = 45, kShades = 190;  // of a depth picture
+
 PaletteColours make_colours(Palette palette) {
   cv::Mat1b ramp(1, 256);
   for (int i = 0; i < 256; ++i) ramp(i) = static_cast<std::uint8_t>(i);
@@ -76,8 +78,11 @@ cv::Mat1b to_gray(const cv::Mat1f& map) {
   return gray;
 }
 
+cv::Vec3b depth_colour(Palette palette, double share) {
+  return colours_of(palette)[cv::saturate_cast<std::uint8_t>(kFarShade + kShades * (1 - share))];
+}
+
 cv::Mat3b depth_picture(const cv::Mat1f& depth_mm, const DepthStyle& style) {
-  constexpr int kFarShade = 45, kShades = 190;
   cv::Mat3b picture(depth_mm.size(), cv::Vec3b());
   const std::optional<ValueRange> range = style.range_mm ? style.range_mm : percentile_range(depth_mm, 100);
   if (!range) return picture;

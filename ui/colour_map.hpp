@@ -48,4 +48,7 @@ struct DepthStyle {
 /// goes on in the palette's ends, of which the range leaves some free.
 cv::Mat3b depth_picture(const cv::Mat1f& depth_mm, const DepthStyle& style = {});
 
+/// The colour in it of a depth at that share of the range, 0 = near .. 1 = far, BGR.
+cv::Vec3b depth_colour(Palette palette, double share);
+
 }  // namespace saccade

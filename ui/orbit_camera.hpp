@@ -15,6 +15,7 @@ class OrbitCamera {
   static constexpr double kNearest_mm = 50, kFarthest_mm = 50'000;
 
   OrbitCamera() = default;
+  bool operator==(const OrbitCamera&) const = default;
 
   /// The sensor's own view: the eye where the sensor is, the whole image in sight, the target straight ahead
   /// at `target_mm`.

@@ -59,6 +59,9 @@ ValueRange shown_range(const cv::Mat1f& smooth, const MapStyle& style);
 /// the strong; 0 below the threshold and where the range is empty. An index into colours_of().
 cv::Mat1b shown_strength(const cv::Mat1f& smooth, const MapStyle& style);
 
+/// The range of the depth's colours in draw_background(); none if it draws no depth, or there is none.
+std::optional<ValueRange> shown_depth_range(const Frame& frame, const OverlayStyle& style);
+
 /// The frame without a map.
 cv::Mat3b draw_background(const Frame& frame, const OverlayStyle& style);
 

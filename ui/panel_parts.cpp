@@ -12,6 +12,10 @@ bool is_light() {
 
 }  // namespace
 
+ItemPlace place_of_item(const std::string& name) {
+  return {name, ImGui::GetItemRectMin(), ImGui::GetItemRectMax()};
+}
+
 ImVec4 tone_colour(Tone tone) {
   const bool light = is_light();
   switch (tone) {
@@ -85,11 +89,20 @@ void swatch(ImU32 colour) {
   ImGui::SameLine(0, side / 2);
 }
 
-void explain(const char* text) {
-  if (!ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
+void named_row(const char* name, const char* explanation) {
+  const float left = ImGui::GetCursorPosX();
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextUnformatted(name);
+  explain(explanation);
+  ImGui::SameLine(left + 7.5F * ImGui::GetFontSize());
+  ImGui::SetNextItemWidth(-1);
+}
+
+void explain(const std::string& text) {
+  if (text.empty() || !ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
   ImGui::BeginTooltip();
   ImGui::PushTextWrapPos(ImGui::GetFontSize() * 26);
-  ImGui::TextUnformatted(text);
+  ImGui::TextUnformatted(text.c_str());
   ImGui::PopTextWrapPos();
   ImGui::EndTooltip();
 }

@@ -9,6 +9,13 @@ namespace saccade {
 /// What a colour of the panels means.
 enum class Tone { plain, quiet, good, warning, bad };
 
+/// Where something stands on the screen.
+struct ItemPlace {
+  std::string name;
+  ImVec2 low, high;
+};
+ItemPlace place_of_item(const std::string& name);  ///< of the last item
+
 /// Readable on the background of the present style, dark or light.
 ImVec4 tone_colour(Tone tone);
 
@@ -31,7 +38,10 @@ bool begin_labelled_rows(const char* id, const char* widest_label);
 /// A small square in a colour, as high as the text; the next item follows on the same line.
 void swatch(ImU32 colour);
 
-/// Explains the last item when the pointer rests on it.
-void explain(const char* text);
+/// Begins a row of controls: its name at the left, the widget that follows fills the rest.
+void named_row(const char* name, const char* explanation = "");
+
+/// Explains the last item when the pointer rests on it; an empty text does nothing.
+void explain(const std::string& text);
 
 }  // namespace saccade

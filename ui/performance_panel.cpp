@@ -157,7 +157,7 @@ void draw_plot(const StageHistory& history) {
 }
 
 void draw_ledger(const Ledger& ledger) {
-  if (!begin_labelled_rows("ledger", "dropped, stopped")) return;
+  if (!begin_labelled_rows("ledger", "frame rate")) return;
   const auto count = [](std::int64_t frames) { return fmt::format("{}", frames); };
   const auto trouble = [](std::int64_t frames) { return frames > 0 ? Tone::warning : Tone::plain; };
   labelled_row("captured", count(ledger.captured));

@@ -21,6 +21,17 @@ struct CloudVertex {
 /// What gives the points their colour.
 enum class CloudColour { image, depth, saliency };
 
+/// How a person wants to see the cloud.
+struct CloudChoices {
+  CloudColour colour = CloudColour::image;
+  bool lit = true;          ///< with light, for which normals are needed
+  bool needles = false;     ///< short lines along the normals
+  bool fixations = true;    ///< numbered markers with their positions
+  float point_size = 1.3F;  ///< 1 = a point covers what its pixel covers
+  bool operator==(const CloudChoices&) const = default;
+};
+constexpr float kSmallestPoint = 0.5F, kLargestPoint = 4;
+
 /// The colour of each pixel's point, BGR: the frame's image (its depth where it has none), its depth, or the
 /// strength of the map (smooth_for_looking(); empty = as if it were 0 everywhere), all as in the overlay.
 cv::Mat3b cloud_colours(CloudColour by, const Frame& frame, const cv::Mat1f& smooth,

@@ -23,7 +23,7 @@ Session::~Session() {
   {
     const std::lock_guard lock(mutex_);
     stopping_ = true;
-    if (pipeline_ != nullptr) pipeline_->stop();
+    stop_pipeline();
   }
   thread_.request_stop();
 }
@@ -37,9 +37,16 @@ void Session::open(OpenRequest request) {
     request_ = std::move(request);
     latest_.reset();
     records_.clear();
-    if (pipeline_ != nullptr) pipeline_->stop();
+    stop_pipeline();
   }
   asked_.notify_all();
+}
+
+// With mutex_ held.
+void Session::stop_pipeline() {
+  if (pipeline_ == nullptr) return;
+  pipeline_->stop();
+  processor_->stop();
 }
 
 std::int64_t Session::set_wishes(const Wishes& wishes) {
@@ -67,6 +74,11 @@ SessionState Session::state() const {
 SensorValues Session::sensor_values() const {
   const std::lock_guard lock(mutex_);
   return controls_ == nullptr ? SensorValues{} : controls_->values();
+}
+
+std::vector<SensorMode> Session::sensor_modes() const {
+  const std::lock_guard lock(mutex_);
+  return controls_ == nullptr ? std::vector<SensorMode>{} : controls_->modes();
 }
 
 void Session::request_sensor(const SensorValues& wanted) {
@@ -110,11 +122,11 @@ void Session::work(const std::stop_token& token) {
 void Session::run(const OpenRequest& request) {
   std::unique_ptr<FrameSource> source = open_(request.uri, request.sensor);
   const SourceInfo info = source->info();
+  check_start(info, request.range.start);
   SensorControls* const controls = source->controls();
   PipelineOptions options;
   options.policy = FramePolicy::newest;
   options.slots = kSlots;
-  options.intrinsics = request.intrinsics;
   if (info.live) options.selection = {request.range.start, request.range.every, request.range.limit};
   options.on_rejected = [this](std::int64_t index, const std::string& reason) {
     change([&](SessionState& state) {
@@ -127,8 +139,12 @@ void Session::run(const OpenRequest& request) {
   if (request_ || stopping_) return;  // this is not wanted any more
   auto processor = std::make_unique<TunableProcessor>(
       wishes_, generation_,
-      TunableProcessor::Hooks{[this] { playback_->taken(); },
-                              [this](std::shared_ptr<ViewResult> result) { publish(std::move(result)); }});
+      TunableProcessor::Hooks{[this] {
+                                playback_->taken();
+                                set_computing(true);
+                              },
+                              [this](std::shared_ptr<ViewResult> result) { publish(std::move(result)); },
+                              [this] { set_computing(false); }});
   TunableProcessor* const tunable = processor.get();
   state_.source = info;
   state_.phase = SessionState::Phase::open;
@@ -148,6 +164,7 @@ void Session::run(const OpenRequest& request) {
   }
   lock.lock();
   if (!request_) state_.ledger = pipeline.ledger();
+  state_.computing = false;
   pipeline_ = nullptr;
   processor_ = nullptr;
   controls_ = nullptr;
@@ -161,6 +178,11 @@ void Session::consume(Pipeline& pipeline) {
     const std::lock_guard lock(mutex_);
     if (!request_) state_.latency = pipeline.latency();
   }
+}
+
+void Session::set_computing(bool computing) {
+  const std::lock_guard lock(mutex_);
+  state_.computing = computing && !request_;
 }
 
 void Session::publish(std::shared_ptr<ViewResult> result) {
@@ -177,10 +199,13 @@ void Session::publish(std::shared_ptr<ViewResult> result) {
     const std::lock_guard lock(mutex_);
     if (request_ || stopping_) return;
     result->serial = ++serial_;
+    result->computed = result->draft ? computed_ : ++computed_;
+    if (!result->draft) {
+      if (records_.size() == kMostRecords)
+        records_.erase(records_.begin(), records_.begin() + kMostRecords / 2);
+      records_.push_back(record);
+    }
     latest_ = std::move(result);
-    if (records_.size() == kMostRecords)
-      records_.erase(records_.begin(), records_.begin() + kMostRecords / 2);
-    records_.push_back(record);
   }
   wake_();
 }

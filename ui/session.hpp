@@ -21,7 +21,6 @@ namespace saccade {
 struct OpenRequest {
   std::string uri;
   PlayRange range{};
-  std::optional<Intrinsics> intrinsics{};
   SensorSettings sensor{};  ///< of live sensors
 };
 
@@ -37,6 +36,7 @@ struct SessionState {
   std::string uri;         ///< of the newest request
   SourceInfo source;       ///< if it could be opened
   SourceState connection;  ///< of the source, while it is open
+  bool computing = false;  ///< a frame is being computed
   Ledger ledger;
   DurationHistogram latency;         ///< from capture to result, of this source
   std::string error;                 ///< what ended it; one line
@@ -82,12 +82,13 @@ class Session {
   /// The controls of the sensor that is open: see SensorControls. All empty, and without effect, where there
   /// is none.
   SensorValues sensor_values() const;
+  std::vector<SensorMode> sensor_modes() const;
   void request_sensor(const SensorValues& wanted);
 
   /// The newest result of the source that is open; null = none yet.
   ViewResultPtr latest() const;
 
-  /// The records of the frames computed since the last call, at most kMostRecords.
+  /// The records of the frames computed, drafts excepted, since the last call, at most kMostRecords.
   std::vector<FrameRecord> take_records();
   static constexpr std::size_t kMostRecords = 4096;
 
@@ -95,6 +96,8 @@ class Session {
   void work(const std::stop_token& token);
   void run(const OpenRequest& request);
   void consume(Pipeline& pipeline);
+  void stop_pipeline();
+  void set_computing(bool computing);
   void publish(std::shared_ptr<ViewResult> result);
   void change(const std::function<void(SessionState&)>& how);
 
@@ -106,7 +109,7 @@ class Session {
   // All guarded by mutex_:
   std::optional<OpenRequest> request_;
   Wishes wishes_;
-  std::int64_t generation_ = 0, serial_ = 0;
+  std::int64_t generation_ = 0, serial_ = 0, computed_ = 0;
   Pipeline* pipeline_ = nullptr;
   TunableProcessor* processor_ = nullptr;
   SensorControls* controls_ = nullptr;  // of the open source; null = it has none

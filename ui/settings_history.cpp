@@ -1,19 +1,6 @@
 #include "ui/settings_history.hpp"
 
-#include <algorithm>
-
 namespace saccade {
-
-bool same_settings(const Settings& a, const Settings& b) {
-  const auto specs = setting_specs();
-  return a.levels_chosen == b.levels_chosen &&
-         std::all_of(specs.begin(), specs.end(),
-                     [&](const SettingSpec& spec) { return spec.print(a) == spec.print(b); });
-}
-
-bool Tuning::operator==(const Tuning& other) const {
-  return same_settings(a, other.a) && same_settings(b, other.b);
-}
 
 void SettingsHistory::commit() {
   if (live_ == steps_[at_]) return;

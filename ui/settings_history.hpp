@@ -3,21 +3,12 @@
 #include <cstddef>
 #include <vector>
 
-#include "core/settings.hpp"
+#include "ui/tuning.hpp"
 
 namespace saccade {
 
-/// The settings that a person tunes: A's, and B's for comparison.
-struct Tuning {
-  Settings a, b;
-  bool operator==(const Tuning& other) const;
-};
-
-/// True if both print the same values for every setting.
-bool same_settings(const Settings& a, const Settings& b);
-
-/// Undo and redo of a tuning. A slider that is dragged is one step: call begin() when it is taken up, or
-/// change() with any number of values and commit() at the end.
+/// Undo and redo of a tuning. A slider that is dragged is one step: change() with any
+/// number of values, and commit() at the end.
 class SettingsHistory {
  public:
   static constexpr std::size_t kMostSteps = 200;

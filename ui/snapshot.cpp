@@ -25,15 +25,26 @@ fs::path unused_path(const fs::path& base, const std::string& stem, const std::s
   return path;
 }
 
-fs::path write_snapshot(const fs::path& base, const Result& result, const OverlayStyle& style,
-                        std::chrono::system_clock::time_point now) {
-  const fs::path folder = unused_path(base, "snapshot", "", now);
+namespace {
+
+void write_side(const fs::path& folder, const Computed& computed, const OverlayStyle& style) {
   std::error_code code;
   fs::create_directories(folder, code);
   if (code)
     throw failed("cannot make a folder: " + code.message(), folder.string(), "is its parent writable?");
+  const Result& result = computed.result;
   write_frame(folder, result, {"maps", "overlay"}, 0, style);
   write_file(folder / fmt::format("{:06}_fixations.json", result.frame.index), fixations_json(result) + "\n");
+  write_file(folder / "settings.toml", std::string_view(settings_toml(computed.settings)));
+}
+
+}  // namespace
+
+fs::path write_snapshot(const fs::path& base, const ViewResult& result, const OverlayStyle& style,
+                        std::chrono::system_clock::time_point now) {
+  const fs::path folder = unused_path(base, "snapshot", "", now);
+  write_side(result.compared ? folder / "a" : folder, result.a, style);
+  if (result.compared) write_side(folder / "b", result.b, style);
   return folder;
 }
 

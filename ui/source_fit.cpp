@@ -1,6 +1,5 @@
 #include "ui/source_fit.hpp"
 
-#include <algorithm>
 #include <utility>
 
 #include <fmt/format.h>
@@ -32,10 +31,10 @@ std::vector<std::string> SourceFit::fit(Tuning& tuning, const SourceInfo& source
     }
     if (s.selector == Selector::proto) exchanged_[i].selector = std::exchange(s.selector, kSelectorOfImage);
   }
-  const int deepest = deepest_level(source.size);
-  if (!tuning.a.levels_chosen && deepest >= 0 && deepest < tuning.a.last_level)
+  const int last = last_level_for(tuning.a, source.size);
+  if (last < tuning.a.last_level)
     notes.push_back(fmt::format("{}x{} images have room for levels 0..{} only, not for the default",
-                                source.size.width, source.size.height, deepest));
+                                source.size.width, source.size.height, last));
   return notes;
 }
 

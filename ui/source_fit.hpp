@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "pipeline/frame_source.hpp"
-#include "ui/settings_history.hpp"
+#include "ui/tuning.hpp"
 
 namespace saccade {
 

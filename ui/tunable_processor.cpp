@@ -2,78 +2,27 @@
 
 #include <sys/resource.h>
 
-#include <algorithm>
-#include <exception>
 #include <utility>
 #include <vector>
-
-#include "saliency/params.hpp"
 
 namespace saccade {
 namespace {
 
 constexpr int kNice = 5;  // computation steps back when the window has something to do
 
-bool same_model(const Settings& a, const Settings& b) {
-  return a.model == b.model && a.kernel == b.kernel && a.first_level == b.first_level &&
-         a.last_level == b.last_level && a.length_scale == b.length_scale &&
-         a.normalisation == b.normalisation && a.simd == b.simd;
+bool same_frame(const Frame& a, const Frame& b) {
+  return a.index == b.index && a.timestamp_us == b.timestamp_us && a.size() == b.size();
 }
 
-bool same_selector(const Settings& a, const Settings& b) {
-  return a.selector == b.selector && a.fixations == b.fixations && a.foa == b.foa;
+bool same_camera(const Intrinsics& a, const Intrinsics& b) {
+  return a.fx == b.fx && a.fy == b.fy && a.cx == b.cx && a.cy == b.cy;
 }
 
-void fit_levels(Settings& settings, cv::Size image) {
-  const int deepest = deepest_level(image);
-  if (!settings.levels_chosen && deepest >= 0) settings.last_level = std::min(settings.last_level, deepest);
+Intrinsics camera_of(const Frame& frame, const Settings& settings) {
+  return settings.intrinsics.value_or(frame.intrinsics);
 }
 
 }  // namespace
-
-// One model and one selector, remade when the settings say so.
-class TunableProcessor::Engine {
- public:
-  explicit Engine(WorkerPool& pool) : pool_(pool) {}
-
-  // `out.result.frame` is filled.
-  void compute(Settings settings, SaliencyWants wants, Computed& out) {
-    const Frame& frame = out.result.frame;
-    fit_levels(settings, frame.size());
-    out.settings = settings;
-    out.error.clear();
-    try {
-      prepare(settings, frame.size());
-      model_->compute(frame, wants, out.result.maps, out.result.times);
-      const StageTimer timer(out.result.times, Stage::attention);
-      selector_->select(out.result.maps.master, frame.depth_mm, frame.intrinsics, out.result.attention);
-    } catch (const std::exception& error) {
-      out.error = error.what();
-      out.result.maps.master.create(frame.size());
-      out.result.maps.master.setTo(0);
-      out.result.maps.levels.clear();
-      out.result.maps.normals.release();
-      out.result.attention = {};
-    }
-    out.smooth = smooth_for_looking(out.result.maps.master);
-    out.outlines = proto_outlines(out.result.attention);
-  }
-
- private:
-  void prepare(const Settings& settings, cv::Size image) {
-    Settings checked = settings;
-    checked.dump.clear();  // what is wanted besides the map is left empty where a model does not have it
-    check_model(checked, image);
-    if (!model_ || !same_model(settings, made_)) model_ = make_model(settings, pool_);
-    if (!selector_ || !same_selector(settings, made_)) selector_ = make_selector(settings);
-    made_ = settings;
-  }
-
-  WorkerPool& pool_;
-  std::unique_ptr<SaliencyModel> model_;
-  std::unique_ptr<AttentionSelector> selector_;
-  Settings made_;
-};
 
 // Results that nobody holds any more, to be filled again.
 class TunableProcessor::Pool {
@@ -112,38 +61,103 @@ void TunableProcessor::set_wishes(Wishes wishes, std::int64_t generation) {
   const std::lock_guard lock(mutex_);
   wishes_ = std::move(wishes);
   generation_ = generation;
+  if (slow_) workers_->interrupt();
+}
+
+void TunableProcessor::stop() {
+  const std::lock_guard lock(mutex_);
+  stopped_ = true;
+  if (workers_) workers_->interrupt();
+}
+
+void TunableProcessor::start(const Settings& settings) {
+  ::setpriority(PRIO_PROCESS, 0, kNice);  // of this thread, and so of those that it starts
+  const std::lock_guard lock(mutex_);
+  workers_ = std::make_unique<WorkerPool>(worker_count(settings));
+  for (std::unique_ptr<Engine>* engine : {&a_, &b_, &draft_a_, &draft_b_})
+    *engine = std::make_unique<Engine>(*workers_);
+}
+
+// The newest wishes; false if they ask for nothing that is not published yet.
+bool TunableProcessor::take_wishes(const Frame& frame, Wishes& wishes, std::int64_t& generation) {
+  const std::lock_guard lock(mutex_);
+  wishes = wishes_;
+  generation = generation_;
+  return !stopped_ && (!last_ || last_->generation != generation || !same_frame(last_->frame(), frame));
+}
+
+// From here on what is computed may be given up; false if it is to be given up already.
+bool TunableProcessor::begin_slow(std::int64_t generation) {
+  const std::lock_guard lock(mutex_);
+  slow_ = generation == generation_;
+  return slow_;
+}
+
+void TunableProcessor::end_slow() {
+  const std::lock_guard lock(mutex_);
+  slow_ = false;
+  if (!stopped_) workers_->resume();
 }
 
 void TunableProcessor::process(Result& result) {
   hooks_.begun();
-  const std::shared_ptr<ViewResult> view = Pool::take(results_);
   Wishes wishes;
-  {
-    const std::lock_guard lock(mutex_);
-    wishes = wishes_;
-    view->generation = generation_;
+  std::int64_t generation = 0;
+  while (take_wishes(result.frame, wishes, generation)) {
+    if (!workers_) start(wishes.a);
+    const bool known = known_ && same_frame(known_->frame(), result.frame) &&
+                       same_camera(known_->frame().intrinsics, camera_of(result.frame, wishes.a));
+    if (!known) known_.reset();
+    const auto slow = [&](const Settings& settings, Computed ViewResult::*side) {
+      return draft_of(settings, result.frame.size()) &&
+             !(known_ && has_maps(*known_.*side, settings, wishes.wants));
+    };
+    try {
+      const bool any_slow = slow(wishes.a, &ViewResult::a) || (wishes.b && slow(*wishes.b, &ViewResult::b));
+      if (any_slow && (!last_ || last_->generation != generation)) {
+        const auto draft = compute(result, wishes, generation, Part::draft);
+        known_ = draft;
+        hooks_.publish(draft);
+      }
+      if (any_slow && !begin_slow(generation)) continue;
+      const auto whole = compute(result, wishes, generation, Part::whole);
+      result.times = whole->a.result.times;
+      known_ = last_ = whole;
+      hooks_.publish(whole);
+    } catch (const WorkerPool::Interrupted&) {  // there are newer wishes, or none at all
+    }
+    end_slow();
   }
-  if (!workers_) {
-    ::setpriority(PRIO_PROCESS, 0, kNice);  // of this thread, and so of those that it starts
-    workers_ = std::make_unique<WorkerPool>(worker_count(wishes.a));
-    a_ = std::make_unique<Engine>(*workers_);
-    b_ = std::make_unique<Engine>(*workers_);
-  }
+  hooks_.ended();
+}
+
+std::shared_ptr<ViewResult> TunableProcessor::compute(const Result& result, const Wishes& wishes,
+                                                      std::int64_t generation, Part part) {
+  const std::shared_ptr<ViewResult> view = Pool::take(results_);
+  view->draft = part == Part::draft;
+  view->generation = generation;
+  view->compared = wishes.b.has_value();
   Result& a = view->a.result;
   copy_frame(result.frame, a.frame);
+  a.frame.intrinsics = camera_of(result.frame, wishes.a);
   a.times = result.times;
   a.captured_at = result.captured_at;
-  a_->compute(wishes.a, wishes.wants, view->a);
-  view->compared = wishes.b.has_value();
+  const auto fill = [&](Engine& whole, Engine& draft, Settings settings, const Computed* known,
+                        Computed& out) {
+    const bool has = known != nullptr && has_maps(*known, settings, wishes.wants);
+    const auto reduced = view->draft && !has ? draft_of(settings, a.frame.size()) : std::nullopt;
+    out.draft = reduced.has_value();
+    (reduced ? draft : whole).compute(reduced.value_or(settings), wishes.wants, known, out);
+  };
+  fill(*a_, *draft_a_, wishes.a, known_ ? &known_->a : nullptr, view->a);
   if (wishes.b) {
     Result& b = view->b.result;
     b.frame = a.frame;
     b.times = {};
     b.captured_at = a.captured_at;
-    b_->compute(*wishes.b, wishes.wants, view->b);
+    fill(*b_, *draft_b_, *wishes.b, known_ && known_->compared ? &known_->b : nullptr, view->b);
   }
-  result.times = a.times;
-  hooks_.publish(view);
+  return view;
 }
 
 }  // namespace saccade

@@ -11,7 +11,8 @@
 #include <opencv2/core.hpp>
 
 #include "ui/overlay.hpp"
-#include "ui/settings_history.hpp"
+#include "ui/point_cloud.hpp"
+#include "ui/tuning.hpp"
 
 namespace saccade {
 
@@ -32,6 +33,7 @@ struct ViewState {
   bool edit_b = false;   ///< the tuning panel edits B; of interest while comparing
   double divider = 0.5;  ///< of the split, share of the picture's width
   Centre centre = Centre::picture;
+  CloudChoices cloud;
   Theme theme = Theme::dark;
   double ui_scale = 0;  ///< 0 = what the screen says
   bool sidebar = true;

@@ -14,6 +14,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::array<std::string_view, 3> kComparisons = {"off", "side_by_side", "split"};
 constexpr std::array<std::string_view, 3> kCentres = {"picture", "cloud", "both"};
+constexpr std::array<std::string_view, 3> kCloudColours = {"image", "depth", "saliency"};
 constexpr std::array<std::string_view, 2> kThemes = {"dark", "light"}, kBackgrounds = {"colour", "depth"};
 constexpr std::array<std::string_view, kSections> kSectionNames = {"tuning", "look", "probe", "performance",
                                                                    "sensors"};
@@ -58,17 +59,15 @@ Json range_json(const std::optional<ValueRange>& range) {
   return range ? Json{range->low, range->high} : Json();
 }
 
-// What the tuning panel sets; which frames and how the program runs is said anew each time.
-constexpr std::array<std::string_view, 7> kTuned = {"model",    "kernel",    "length-scale", "normalisation",
-                                                    "selector", "fixations", "foa"};
-
+// What the tuning panel sets; which frames and how the program runs is said anew each time. Default levels
+// are left out: to read them would make them chosen ones.
 Json settings_json(const Settings& settings) {
+  const auto tuned = tuned_keys();
   Json json = Json::object();
   for (const SettingSpec& spec : setting_specs())
-    if (std::find(kTuned.begin(), kTuned.end(), spec.key) != kTuned.end())
+    if (std::find(tuned.begin(), tuned.end(), spec.key) != tuned.end() &&
+        (spec.key != "levels" || settings.levels_chosen))
       json[std::string(spec.key)] = spec.print(settings);
-  if (settings.levels_chosen)
-    json["levels"] = std::to_string(settings.first_level) + ".." + std::to_string(settings.last_level);
   return json;
 }
 
@@ -107,6 +106,11 @@ std::string view_state_json(const ViewState& state) {
                      {"comparison", word(kComparisons, state.comparison)},
                      {"divider", state.divider},
                      {"centre", word(kCentres, state.centre)},
+                     {"cloud_colour", word(kCloudColours, state.cloud.colour)},
+                     {"cloud_lit", state.cloud.lit},
+                     {"cloud_normals", state.cloud.needles},
+                     {"cloud_fixations", state.cloud.fixations},
+                     {"cloud_point_size", state.cloud.point_size},
                      {"theme", word(kThemes, state.theme)},
                      {"sidebar", state.sidebar},
                      {"sidebar_width", state.sidebar_width},
@@ -136,6 +140,13 @@ void apply_view_state(ViewState& state, const std::string& text) {
   read(json, "comparison", kComparisons, state.comparison);
   read(json, "divider", state.divider, 0.02, 0.98);
   read(json, "centre", kCentres, state.centre);
+  read(json, "cloud_colour", kCloudColours, state.cloud.colour);
+  read(json, "cloud_lit", state.cloud.lit);
+  read(json, "cloud_normals", state.cloud.needles);
+  read(json, "cloud_fixations", state.cloud.fixations);
+  auto point_size = static_cast<double>(state.cloud.point_size);
+  read(json, "cloud_point_size", point_size, kSmallestPoint, kLargestPoint);
+  state.cloud.point_size = static_cast<float>(point_size);
   read(json, "theme", kThemes, state.theme);
   read(json, "sidebar", state.sidebar);
   read(json, "sidebar_width", state.sidebar_width, 260, 700);

@@ -36,25 +36,6 @@ OniStatus ModuleDevice::getSensorInfoList(OniSensorInfo** sensors, int* count) {
   return ONI_STATUS_OK;
 }
 
-OniStatus ModuleDevice::setProperty(int id, const void* data, int size) {
-  const OniStatus status = properties_.set(id, data, size);
-  if (status == ONI_STATUS_OK) tell_changed(id, data, size);
-  return status;
-}
-
-void ModuleDevice::setPropertyChangedCallback(oni::driver::PropertyChangedCallback callback, void* cookie) {
-  DeviceBase::setPropertyChangedCallback(callback, cookie);
-  has_listener_ = callback != nullptr;
-}
-
-void ModuleDevice::tell_changed(int id, const void* data, int size) {
-  if (has_listener_) raisePropertyChanged(id, data, size);
-}
-
-void ModuleDevice::notifyAllProperties() {
-  properties_.for_each([this](int id, const void* data, int size) { tell_changed(id, data, size); });
-}
-
 OniBool ModuleDevice::isImageRegistrationModeSupported(OniImageRegistrationMode mode) {
   return mode == ONI_IMAGE_REGISTRATION_OFF || mode == ONI_IMAGE_REGISTRATION_DEPTH_TO_COLOR ? TRUE : FALSE;
 }

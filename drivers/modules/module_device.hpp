@@ -1,6 +1,5 @@
 #pragma once
 
-#include <atomic>
 #include <functional>
 #include <mutex>
 #include <string>
@@ -9,14 +8,14 @@
 #include <Driver/OniDriverAPI.h>
 
 #include "drivers/modules/module_stream.hpp"
-#include "drivers/modules/property_table.hpp"
+#include "drivers/modules/with_properties.hpp"
 
 namespace saccade {
 
 /// What the driver modules' devices have in common: the list of their sensors and the properties that OpenNI2
 /// and its programs ask for. A module derives from it and makes the streams.
 /// Thread safety: OpenNI2 calls from any thread.
-class ModuleDevice : public oni::driver::DeviceBase {
+class ModuleDevice : public WithProperties<oni::driver::DeviceBase> {
  public:
   struct Identity {
     std::string serial, firmware;
@@ -25,11 +24,6 @@ class ModuleDevice : public oni::driver::DeviceBase {
   ModuleDevice(const Identity& identity, std::vector<StreamKind> streams);
 
   OniStatus getSensorInfoList(OniSensorInfo** sensors, int* count) final;
-  OniStatus getProperty(int id, void* data, int* size) final { return properties_.get(id, data, size); }
-  OniStatus setProperty(int id, const void* data, int size) final;
-  OniBool isPropertySupported(int id) final { return properties_.has(id) ? TRUE : FALSE; }
-  void setPropertyChangedCallback(oni::driver::PropertyChangedCallback callback, void* cookie) final;
-  void notifyAllProperties() final;
   OniBool isImageRegistrationModeSupported(OniImageRegistrationMode mode) override;
 
  protected:
@@ -40,13 +34,9 @@ class ModuleDevice : public oni::driver::DeviceBase {
   /// Refuses by any status but OK; what is accepted is kept and read back.
   virtual OniStatus change_registration(OniImageRegistrationMode mode) = 0;
 
-  PropertyTable properties_;  // filled by the constructors
-
  private:
-  void tell_changed(int id, const void* data, int size);
   std::vector<StreamKind> kinds_;
-  std::vector<OniSensorInfo> sensors_;      // points into kinds_
-  std::atomic<bool> has_listener_ = false;  // OpenNI2 does not always give a callback
+  std::vector<OniSensorInfo> sensors_;  // points into kinds_
   mutable std::mutex mutex_;
   OniImageRegistrationMode registration_ = ONI_IMAGE_REGISTRATION_OFF;  // guarded by mutex_
 };

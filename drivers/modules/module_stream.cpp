@@ -103,25 +103,6 @@ int ModuleStream::stride() const {
          bytes_per_pixel(now.mode.pixelFormat);
 }
 
-OniStatus ModuleStream::setProperty(int id, const void* data, int size) {
-  const OniStatus status = properties_.set(id, data, size);
-  if (status == ONI_STATUS_OK) tell_changed(id, data, size);
-  return status;
-}
-
-void ModuleStream::setPropertyChangedCallback(oni::driver::PropertyChangedCallback callback, void* cookie) {
-  StreamBase::setPropertyChangedCallback(callback, cookie);
-  has_listener_ = callback != nullptr;
-}
-
-void ModuleStream::tell_changed(int id, const void* data, int size) {
-  if (has_listener_) raisePropertyChanged(id, data, size);
-}
-
-void ModuleStream::notifyAllProperties() {
-  properties_.for_each([this](int id, const void* data, int size) { tell_changed(id, data, size); });
-}
-
 int ModuleStream::getRequiredFrameSize() {
   int largest = 0;
   for (const OniVideoMode& mode : kind_.modes)

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <mutex>
@@ -9,7 +8,7 @@
 #include <Driver/OniDriverAPI.h>
 #include <opencv2/core.hpp>
 
-#include "drivers/modules/property_table.hpp"
+#include "drivers/modules/with_properties.hpp"
 
 namespace saccade {
 
@@ -37,7 +36,7 @@ struct StreamSettings {
 /// or gives it functions to start and stop.
 /// Thread safety: OpenNI2 calls from any thread; deliver() runs on the thread that makes the images, and
 /// stop() returns only when no deliver() is under way.
-class ModuleStream : public oni::driver::StreamBase {
+class ModuleStream : public WithProperties<oni::driver::StreamBase> {
  public:
   /// `running(true)` is called when a client starts the stream; false refuses. `running(false)` when it
   /// stops.
@@ -55,22 +54,13 @@ class ModuleStream : public oni::driver::StreamBase {
 
   OniStatus start() final;
   void stop() final;
-  OniStatus getProperty(int id, void* data, int* size) final { return properties_.get(id, data, size); }
-  OniStatus setProperty(int id, const void* data, int size) final;
-  OniBool isPropertySupported(int id) final { return properties_.has(id) ? TRUE : FALSE; }
-  void setPropertyChangedCallback(oni::driver::PropertyChangedCallback callback, void* cookie) final;
-  void notifyAllProperties() final;
   /// Room for the largest mode, since the mode may be changed after the buffers were made.
   int getRequiredFrameSize() final;
   /// Right for images that are registered already; the others have no calibration to do better.
   OniStatus convertDepthToColorCoordinates(StreamBase* colour, int depth_x, int depth_y, OniDepthPixel depth,
                                            int* colour_x, int* colour_y) final;
 
- protected:
-  PropertyTable properties_;  // filled by the constructors
-
  private:
-  void tell_changed(int id, const void* data, int size);
   OniStatus set_mode(const OniVideoMode& mode);
   OniStatus set_cropping(const OniCropping& cropping);
   bool exchange_started(bool started);
@@ -79,7 +69,6 @@ class ModuleStream : public oni::driver::StreamBase {
 
   StreamKind kind_;
   std::function<bool(bool)> running_;
-  std::atomic<bool> has_listener_ = false;  // OpenNI2 does not always give a callback
   mutable std::mutex settings_mutex_;
   StreamSettings settings_;    // guarded by settings_mutex_
   std::mutex delivery_mutex_;  // held while a frame is handed on

@@ -30,6 +30,7 @@ void tell_state(const SourceState& state) {
       if (state.losses > 0)
         spdlog::info("{} streams again; {} loss{}, {:.1f} s away in all", state.text, state.losses,
                      state.losses == 1 ? "" : "es", state.away_s);
+      for (const std::string& note : state.notes) spdlog::warn("{}: {}", state.text, note);
       return;
     case SourceState::Connection::waiting:
       if (::isatty(STDERR_FILENO) == 1) spdlog::info("{}", state.text);
@@ -40,11 +41,11 @@ void tell_state(const SourceState& state) {
 }
 
 void fit_default_levels(Settings& settings, SourceInfo& source) {
-  const int deepest = deepest_level(source.size);
-  if (settings.levels_chosen || deepest < 0 || deepest >= settings.last_level) return;
-  settings.last_level = deepest;
+  const int last = last_level_for(settings, source.size);
+  if (last == settings.last_level) return;
+  settings.last_level = last;
   source.notes.push_back(fmt::format("{}x{} images have room for levels 0..{} only, not for the default",
-                                     source.size.width, source.size.height, deepest));
+                                     source.size.width, source.size.height, last));
 }
 
 void fit_to_depth(Settings& settings, SourceInfo& source) {
@@ -55,12 +56,6 @@ void fit_to_depth(Settings& settings, SourceInfo& source) {
   if (settings.selector != Selector::proto) return;
   settings.selector = Selector::wta;
   source.notes.emplace_back("the selector proto needs depth; wta chooses the points");
-}
-
-void check_start(const SourceInfo& source, const Settings& settings) {
-  if (source.frame_count && settings.start >= *source.frame_count)
-    throw usage_error(fmt::format("--start {} is behind the last frame", settings.start), source.uri,
-                      fmt::format("it has {} frames, counted from 0", *source.frame_count));
 }
 
 void make_output_folder(const fs::path& folder) {

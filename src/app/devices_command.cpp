@@ -14,10 +14,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::vector<std::string> to_text(const std::vector<SensorMode>& modes) {
+std::vector<std::string> texts_of(const std::vector<SensorMode>& modes) {
   std::vector<std::string> texts;
-  for (const SensorMode& mode : modes)
-    texts.push_back(fmt::format("{}x{}@{}", mode.width, mode.height, mode.rate_hz));
+  for (const SensorMode& mode : modes) texts.push_back(to_text(mode));
   return texts;
 }
 
@@ -34,8 +33,8 @@ Json to_json(const DeviceListing& device) {
                {"driver", device.driver},
                {"usb_id", usb_id(device.identity)},
                {"serial", device.serial},
-               {"depth_modes", to_text(device.depth_modes)},
-               {"colour_modes", to_text(device.colour_modes)}};
+               {"depth_modes", texts_of(device.depth_modes)},
+               {"colour_modes", texts_of(device.colour_modes)}};
   if (!device.problem.empty()) json["problem"] = device.problem;
   return json;
 }
@@ -48,8 +47,8 @@ void tell(const DeviceListing& device) {
   line("driver", device.driver);
   line("USB", usb_id(device.identity));
   line("serial", device.serial);
-  line("depth", fmt::format("{}", fmt::join(to_text(device.depth_modes), ", ")));
-  line("colour", fmt::format("{}", fmt::join(to_text(device.colour_modes), ", ")));
+  line("depth", fmt::format("{}", fmt::join(texts_of(device.depth_modes), ", ")));
+  line("colour", fmt::format("{}", fmt::join(texts_of(device.colour_modes), ", ")));
   line("problem", device.problem);
 }
 

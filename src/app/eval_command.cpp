@@ -41,7 +41,7 @@ Error interrupted(const fs::path& folder) {
 std::int64_t selected_frames(const SourceInfo& source, const Settings& settings) {
   if (source.live || !source.frame_count)
     throw usage_error("not a data set", source.uri, "images with labels are needed, not a live sensor");
-  check_start(source, settings);
+  check_start(source, settings.start);
   const std::int64_t all = (*source.frame_count - settings.start + settings.every - 1) / settings.every;
   return settings.frames > 0 ? std::min(all, settings.frames) : all;
 }

@@ -54,15 +54,6 @@ Json stages_json(const StageStatistics& stages) {
   return json;
 }
 
-Json device_json(const SourceState& device) {
-  return {{"state", device.connection == SourceState::Connection::streaming ? "streaming"
-                    : device.connection == SourceState::Connection::lost    ? "lost"
-                                                                            : "waiting"},
-          {"text", device.text},
-          {"losses", device.losses},
-          {"away_s", rounded(device.away_s)}};
-}
-
 Json source_json(const SourceInfo& source) {
   Json json = {{"uri", source.uri},          {"kind", source.kind},
                {"width", source.size.width}, {"height", source.size.height},
@@ -73,6 +64,17 @@ Json source_json(const SourceInfo& source) {
 }
 
 }  // namespace
+
+Json device_json(const SourceState& device) {
+  return {{"state", device.connection == SourceState::Connection::streaming ? "streaming"
+                    : device.connection == SourceState::Connection::lost    ? "lost"
+                                                                            : "waiting"},
+          {"text", device.text},
+          {"losses", device.losses},
+          {"away_s", rounded(device.away_s)},
+          {"without_colour", device.colourless},
+          {"notes", device.notes}};
+}
 
 Json summary_json(const RunReport& report) {
   const double rate = report.wall_s > 0 ? static_cast<double>(report.ledger.processed) / report.wall_s : 0;

@@ -24,7 +24,7 @@ struct RunReport {
   Settings settings;
   int workers = 0;  ///< as resolved
   Ledger ledger;
-  std::vector<std::pair<std::int64_t, std::string>> rejected;  ///< source index and reason
+  std::vector<std::pair<std::int64_t, std::string>> rejected;  ///< source index and reason; the first 10000
   StageStatistics stages;
   DurationHistogram latency;          ///< from the capture of a frame to its result
   std::optional<SourceState> device;  ///< how a live source was doing at the end
@@ -34,6 +34,9 @@ struct RunReport {
 
 /// The whole report: manifest.json.
 nlohmann::ordered_json manifest_json(const RunReport& report);
+
+/// How a live source's device did, in either.
+nlohmann::ordered_json device_json(const SourceState& device);
 
 /// Its short form: what --json prints.
 nlohmann::ordered_json summary_json(const RunReport& report);

@@ -10,7 +10,9 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <set>
+#include <string>
 #include <string_view>
 #include <utility>
 
@@ -20,11 +22,13 @@
 
 #include "app/command.hpp"
 #include "app/interrupt.hpp"
+#include "app/manifest.hpp"
 #include "app/options.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "drivers/open_source.hpp"
 #include "oni/recorder.hpp"
+#include "pipeline/state_watch.hpp"
 
 namespace saccade {
 namespace fs = std::filesystem;
@@ -58,6 +62,7 @@ class RecordRun {
       take_frames(*source, recorder);
       recorder.finish();
       counts_ = recorder.counts();
+      if (live_) device_ = source->state();
     }
     interrupted_ = interrupt.happened();
     tell_summary(writer);
@@ -82,6 +87,10 @@ class RecordRun {
   }
 
   void copy_frames(FrameSource& source, OniRecorder& recorder) {
+    StateWatch state_watch(source, [this](const SourceState& state) {
+      clear_line();
+      tell_state(state);
+    });
     Frame frame;
     std::int64_t first_us = 0;
     while (!stopped_ && !(arguments_.frames > 0 && taken_ >= arguments_.frames)) {
@@ -89,11 +98,10 @@ class RecordRun {
       const ReadResult result = source.read(frame, kReadTimeout);
       show_line(recorder);
       if (result.status == ReadStatus::end) return;
-      watch_state(source, result.status);
+      state_watch.after_read(result.status);
       if (result.status == ReadStatus::timeout) continue;
       if (result.status == ReadStatus::rejected) {
-        ++rejected_;
-        spdlog::warn("frame {} rejected: {}", frame.index, result.reason);
+        if (rejected_++ == 0) first_rejected_ = fmt::format("frame {}: {}", frame.index, result.reason);
         continue;
       }
       if (taken_ == 0) first_us = frame.timestamp_us;
@@ -105,16 +113,6 @@ class RecordRun {
       else
         recorder.push(frame);
     }
-  }
-
-  // Told when it changes; only a source that gives nothing has something to tell.
-  void watch_state(const FrameSource& source, ReadStatus status) {
-    const bool waited = std::exchange(waited_, status == ReadStatus::timeout);
-    if (!waited && !waited_) return;
-    const SourceState state = source.state();
-    if (std::exchange(connection_, state.connection) == state.connection) return;
-    clear_line();
-    tell_state(state);
   }
 
   double seconds() const { return std::chrono::duration<double>(Clock::now() - begin_).count(); }
@@ -143,6 +141,9 @@ class RecordRun {
 
   void tell_summary(const OniWriter& writer) const {
     const double wall_s = seconds();
+    if (rejected_ > 0)
+      spdlog::warn("{}: {} frame{} rejected, the first, {}", arguments_.source, rejected_,
+                   rejected_ == 1 ? "" : "s", first_rejected_);
     if (counts_.rounded > 0)
       spdlog::warn("{}: depth of {} frames was rounded to the unit of the file, by at most {:.3g} mm",
                    arguments_.file, counts_.rounded, counts_.largest_rounding_mm);
@@ -150,15 +151,16 @@ class RecordRun {
       spdlog::warn("{}: {} pixels were too far for the unit of the file and have no reading", arguments_.file,
                    counts_.out_of_range_pixels);
     if (arguments_.json) {
-      const nlohmann::ordered_json json = {{"status", interrupted_ ? "interrupted" : "done"},
-                                           {"file", arguments_.file},
-                                           {"frames", counts_.frames},
-                                           {"dropped", counts_.dropped},
-                                           {"rejected", rejected_},
-                                           {"rounded", counts_.rounded},
-                                           {"most_unsynced", counts_.most_unsynced},
-                                           {"bytes", writer.size_bytes()},
-                                           {"wall_s", wall_s}};
+      nlohmann::ordered_json json = {{"status", interrupted_ ? "interrupted" : "done"},
+                                     {"file", arguments_.file},
+                                     {"frames", counts_.frames},
+                                     {"dropped", counts_.dropped},
+                                     {"rejected", rejected_},
+                                     {"rounded", counts_.rounded},
+                                     {"most_unsynced", counts_.most_unsynced},
+                                     {"bytes", writer.size_bytes()},
+                                     {"wall_s", wall_s}};
+      if (device_) json["device"] = device_json(*device_);
       fmt::print("{}\n", json.dump());
     } else if (!arguments_.quiet) {
       fmt::print("{} frame{} in {:.2f} s, {}, {} dropped{}{}{}; see {}\n", counts_.frames,
@@ -195,9 +197,10 @@ class RecordRun {
   }
 
   const RecordArguments& arguments_;
-  bool live_ = false, interrupted_ = false, waited_ = false;
-  SourceState::Connection connection_ = SourceState::Connection::streaming;
+  bool live_ = false, interrupted_ = false;
   std::int64_t taken_ = 0, rejected_ = 0;
+  std::string first_rejected_;
+  std::optional<SourceState> device_;  // at the end, of a live source
   OniWriterCounts counts_;
   Clock::time_point begin_, last_line_;
   std::atomic<bool> stopped_ = false;

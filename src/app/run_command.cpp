@@ -34,6 +34,7 @@ namespace {
 
 constexpr int kSlotsInFlight = 4;  // one captured, one computed, one waiting at either side
 constexpr int kWriterThreads = 2;
+constexpr std::size_t kRejectedListed = 10'000;  // so that hours with a bad sensor do not fill the memory
 
 // How many frames will come, if that can be known.
 std::optional<std::int64_t> expected_frames(const SourceInfo& source, const Settings& settings) {
@@ -62,7 +63,7 @@ class Run {
     fit_to_depth(report_.settings, report_.source);
     fit_default_levels(report_.settings, report_.source);
     check_model(report_.settings, report_.source.size);
-    check_start(report_.source, report_.settings);
+    check_start(report_.source, report_.settings.start);
     auto processor = make_processor(report_.settings);
     make_output_folder(folder_);
     write_manifest();
@@ -145,19 +146,21 @@ class Run {
     if (report_.rejected.empty()) return;
     const auto& [index, reason] = report_.rejected.front();
     spdlog::warn("{}: {} frame{} rejected (manifest.json lists them), the first, frame {}: {}",
-                 report_.source.uri, report_.rejected.size(), report_.rejected.size() == 1 ? "" : "s", index,
+                 report_.source.uri, report_.ledger.rejected, report_.ledger.rejected == 1 ? "" : "s", index,
                  reason);
   }
 
   void check_any_processed() const {
     if (report_.ledger.processed == 0 && !report_.rejected.empty())
-      throw unreadable(fmt::format("none of {} frames could be used; the first: {}", report_.rejected.size(),
+      throw unreadable(fmt::format("none of {} frames could be used; the first: {}", report_.ledger.rejected,
                                    report_.rejected.front().second),
-                       report_.source.uri, "manifest.json lists them all with their reasons");
+                       report_.source.uri, "manifest.json lists them with their reasons");
   }
 
   // On the capture thread; read by the others after it has ended.
-  void reject(std::int64_t index, const std::string& reason) { report_.rejected.emplace_back(index, reason); }
+  void reject(std::int64_t index, const std::string& reason) {
+    if (report_.rejected.size() < kRejectedListed) report_.rejected.emplace_back(index, reason);
+  }
 
   void write_manifest() const {
     write_file(folder_ / "manifest.json", manifest_json(report_).dump(2) + "\n");

@@ -59,20 +59,19 @@ void save_state(const ViewState& state, const fs::path& file) {
 }
 
 void view(const ViewArguments& arguments, const SettingsOptions& options) {
+  if (arguments.paused && arguments.after_frames > 1)
+    throw usage_error("a paused viewer computes one frame only", "--after-frames", "leave out --paused");
   ViewState state;
   const fs::path folder = config_folder(), file = folder.empty() ? fs::path() : folder / "viewer.json";
   load_state(state, file);
   Settings& settings = state.tuning.a = options.resolve(state.tuning.a);
-  state.tuning.b.intrinsics = settings.intrinsics;
-  state.tuning.b.workers = settings.workers;
+  share_source(state.tuning);
   if (arguments.ui_scale > 0) state.ui_scale = arguments.ui_scale;
   set_log_level(settings);
 
   ViewerOptions viewer_options;
-  viewer_options.source = {arguments.source,
-                           {settings.start, settings.every, settings.frames},
-                           settings.intrinsics,
-                           settings.sensor};
+  viewer_options.source = {
+      arguments.source, {settings.start, settings.every, settings.frames}, settings.sensor};
   if (arguments.source.empty())
     viewer_options.source.uri = find_bundled_recording(fs::read_symlink("/proc/self/exe")).string();
   if (!arguments.size.empty()) viewer_options.size = parse_size(arguments.size);

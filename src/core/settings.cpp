@@ -146,10 +146,7 @@ void parse_mode(Settings& s, const std::string& text) {
   s.sensor.mode = mode;
 }
 
-std::string print_mode(const Settings& s) {
-  if (!s.sensor.mode) return "";
-  return fmt::format("{}x{}@{}", s.sensor.mode->width, s.sensor.mode->height, s.sensor.mode->rate_hz);
-}
+std::string print_mode(const Settings& s) { return s.sensor.mode ? to_text(*s.sensor.mode) : ""; }
 
 SettingSpec sensor_flag(std::string_view key, std::string_view help, bool SensorSettings::*field) {
   return {key, "", help, [=](Settings& s, const std::string& text) { s.sensor.*field = parse_truth(text); },
@@ -252,6 +249,10 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 }
 
 }  // namespace
+
+std::string to_text(const SensorMode& mode) {
+  return fmt::format("{}x{}@{}", mode.width, mode.height, mode.rate_hz);
+}
 
 std::span<const SettingSpec> setting_specs() {
   static const std::vector<SettingSpec> specs = make_specs();

@@ -27,6 +27,7 @@ struct SensorMode {
   int rate_hz = 30;
   bool operator==(const SensorMode&) const = default;
 };
+std::string to_text(const SensorMode& mode);
 
 /// How a live sensor is to be used.
 struct SensorSettings {

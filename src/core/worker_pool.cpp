@@ -60,6 +60,7 @@ void WorkerPool::take_chunks(int worker) noexcept {
     const int chunk = next_.fetch_add(1, std::memory_order_relaxed);
     if (chunk >= chunks_) return;
     try {
+      if (interrupted_.load(std::memory_order_relaxed)) throw Interrupted();
       (*job_)(chunk, worker);
     } catch (...) {
       const std::lock_guard lock(mutex_);

@@ -14,9 +14,13 @@ namespace saccade {
 /// A fixed set of threads that share the chunks of one job at a time. The calling thread works too, so a pool
 /// of one has no thread of its own. Chunks are handed out in order, each exactly once; which thread takes
 /// which is open, so a job whose chunks write disjoint memory gives the same bits for any number of workers.
-/// Thread safety: for_each() is called by one thread at a time and never from inside a job.
+/// Thread safety: for_each() is called by one thread at a time and never from inside a job; interrupt() and
+/// resume() by any.
 class WorkerPool {
  public:
+  /// What for_each() throws when its job was given up.
+  struct Interrupted {};
+
   /// `workers` >= 1 counts the calling thread; throws std::invalid_argument otherwise.
   explicit WorkerPool(int workers);
   ~WorkerPool();
@@ -30,6 +34,11 @@ class WorkerPool {
   /// others ended; chunks not begun by then are left out. Allocates nothing.
   void for_each(int chunks, const std::function<void(int chunk, int worker)>& job);
 
+  /// From now on no chunk is begun and for_each() throws Interrupted, until resume(): nobody wants the result
+  /// any more.
+  void interrupt() noexcept { interrupted_ = true; }
+  void resume() noexcept { interrupted_ = false; }
+
  private:
   void work(int worker);
   void take_chunks(int worker) noexcept;
@@ -42,6 +51,7 @@ class WorkerPool {
   bool stop_ = false;      // guarded by mutex_
   int chunks_ = 0;
   std::atomic<int> next_{0};
+  std::atomic<bool> interrupted_ = false;
   std::exception_ptr error_;  // guarded by mutex_
   std::vector<std::jthread> threads_;
 };

@@ -21,10 +21,14 @@ struct SourceInfo {
   std::optional<std::int64_t> frame_count;  ///< unknown for live sensors
   double rate_hz = 0;                       ///< nominal; 0 = unknown
   Intrinsics intrinsics;
-  bool has_depth = true;           ///< false: a plain camera or video, whose depth never has a reading
-  bool live = false;               ///< frames come when they come; nothing can be read twice
-  std::vector<std::string> notes;  ///< what the user should know: gaps, guesses; one line each
+  bool has_depth = true;  ///< false: a plain camera or video, whose depth never has a reading
+  bool live = false;      ///< frames come when they come; nothing can be read twice
+  /// What the user should know: gaps, guesses; one line each. Of a live sensor as it was opened.
+  std::vector<std::string> notes;
 };
+
+/// Throws Error (usage) if frame `start` is behind the last one of the source.
+void check_start(const SourceInfo& source, std::int64_t start);
 
 enum class ReadStatus {
   frame,     ///< `frame` is filled
@@ -50,6 +54,8 @@ struct SourceState {
   std::chrono::steady_clock::time_point since{};  ///< of this state
   std::int64_t losses = 0;                        ///< so far
   double away_s = 0;                              ///< time without the device so far, in all losses
+  std::int64_t colourless = 0;  ///< frames so far for which the device, which has colour, gave none in time
+  std::vector<std::string> notes;  ///< what the device that is there does otherwise than asked; a line each
 };
 
 /// Where frames come from: a sensor, a recording, a folder, a synthetic scene.

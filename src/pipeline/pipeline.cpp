@@ -36,7 +36,8 @@ Pipeline::Pipeline(std::unique_ptr<FrameSource> source, std::unique_ptr<FramePro
       free_(slots_.size() + 2),
       captured_(slots_.size() + 2),
       computed_(slots_.size() + 2),
-      newest_(slots_[0].get()) {
+      newest_(slots_[0].get()),
+      state_watch_(*source_, options_.on_state) {
   // With `newest` two slots are in other hands already: one in the mailbox, one with capture.
   for (std::size_t i = keeps_newest() ? 2 : 0; i < slots_.size(); ++i) free_.push(slots_[i].get());
   compute_thread_ = std::jthread([this] { compute(); });
@@ -105,7 +106,7 @@ void Pipeline::capture_frames() {
     slot->times = {};
     const ReadResult read = read_into(*slot);
     if (read.status == ReadStatus::end) return;
-    watch_state(read.status);
+    state_watch_.after_read(read.status);
     if (read.status == ReadStatus::timeout) continue;
     if (!seekable && slot->frame.index < wanted) continue;
     const std::int64_t index = slot->frame.index;
@@ -128,14 +129,6 @@ ReadResult Pipeline::read_into(Result& slot) {
   slot.captured_at = Clock::now();
   if (options_.intrinsics) slot.frame.intrinsics = *options_.intrinsics;
   return read;
-}
-
-// A state changes only where the source has waited, so that a frame that comes in time costs nothing.
-void Pipeline::watch_state(ReadStatus status) {
-  const bool waited = std::exchange(waited_, status == ReadStatus::timeout);
-  if (!options_.on_state || (!waited && !waited_)) return;
-  const SourceState state = source_->state();
-  if (std::exchange(told_, state.connection) != state.connection) options_.on_state(state);
 }
 
 // Gives a captured frame to the compute thread; returns the slot for the next one, null to end.

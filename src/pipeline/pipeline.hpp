@@ -18,6 +18,7 @@
 #include "pipeline/result.hpp"
 #include "pipeline/ring.hpp"
 #include "pipeline/stage_statistics.hpp"
+#include "pipeline/state_watch.hpp"
 
 namespace saccade {
 
@@ -41,7 +42,7 @@ struct PipelineOptions {
   int slots = 4;
   /// Called on the capture thread for each frame that cannot be used.
   std::function<void(std::int64_t index, const std::string& reason)> on_rejected;
-  /// Called on the capture thread when a source that waits tells something new: its device is lost, or back.
+  /// Called on the capture thread with what is new of a source (StateWatch): its device is lost, or back.
   std::function<void(const SourceState&)> on_state;
 };
 
@@ -97,7 +98,6 @@ class Pipeline {
   void capture() noexcept;
   void capture_frames();
   ReadResult read_into(Result& slot);
-  void watch_state(ReadStatus status);
   Result* hand_over(Result* slot);
   void compute() noexcept;
   bool process(Result& slot) noexcept;
@@ -115,9 +115,7 @@ class Pipeline {
   std::atomic<bool> stopping_ = false;
   LedgerCounters counters_;
   std::int64_t results_ = 0;  // compute thread only
-  // Capture thread only: what on_state was told, and whether the last read() had to wait for nothing.
-  SourceState::Connection told_ = SourceState::Connection::streaming;
-  bool waited_ = false;
+  StateWatch state_watch_;    // capture thread only
   std::mutex error_mutex_;
   std::exception_ptr error_;   // guarded by error_mutex_; the first
   bool ended_ = false;         // consumer's thread only

@@ -1,6 +1,9 @@
 #pragma once
 
 #include <optional>
+#include <vector>
+
+#include "core/settings.hpp"
 
 namespace saccade {
 
@@ -22,6 +25,10 @@ class SensorControls {
 
   /// As read back from the device when it was last set, not as asked for. All empty while no device is there.
   virtual SensorValues values() const = 0;
+
+  /// The modes in which the device can give depth, each once, for SensorSettings::mode of the next opening: a
+  /// source that is open keeps its own. Empty until a device has been opened; stays while it is lost.
+  virtual std::vector<SensorMode> modes() const = 0;
 
   /// Asks for what is not empty in `wanted`. Done by the thread that reads frames, before its next frame;
   /// values() then says what has become of it. Holds for a device that comes back, too.

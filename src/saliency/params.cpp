@@ -29,6 +29,12 @@ int deepest_level(cv::Size image) {
   return level;
 }
 
+int last_level_for(const Settings& settings, cv::Size image) {
+  const int deepest = deepest_level(image);
+  if (settings.levels_chosen || deepest < 0) return settings.last_level;
+  return std::min(settings.last_level, deepest);
+}
+
 void check_levels(cv::Size image, const Symmetry3dParams& params) {
   const int deepest = deepest_level(image);
   if (params.last_level <= deepest) return;

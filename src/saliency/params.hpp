@@ -24,6 +24,11 @@ cv::Size level_size(cv::Size image, int level);
 /// The deepest level of an image that has at least 8 px a side; -1 if the image itself has not.
 int deepest_level(cv::Size image);
 
+/// The last level that settings mean for an image: levels that the user chose stay, check_levels() refuses
+/// them if they do not fit; the default ones are cut to those that the image has room for. An image without
+/// room for any leaves it as it is.
+int last_level_for(const Settings& settings, cv::Size image);
+
 /// Throws Error (usage) if the last level would have a side below 8 px, naming the deepest that fits; Error
 /// (unreadable) if the image itself is too small.
 void check_levels(cv::Size image, const Symmetry3dParams& params);

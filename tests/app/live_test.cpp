@@ -165,6 +165,20 @@ TEST_F(LiveTest, SettingsThatDoNothingAreTold) {
   EXPECT_EQ(run_saccade({"run", "openni2", "--mode", "1x1@30", "--out", in("no")}).status, 2);
 }
 
+TEST_F(LiveTest, SettingsThatDoNothingAreToldOfADeviceThatComesLateOrAgainToo) {
+  plug_in("&ignores_settings=1&late_ms=300&loss_after=4&back_after_ms=50");
+  const Outcome outcome = run_saccade({"run", "openni2", "--mode", "160x120", "--mirror", "--frames", "12",
+                                       "--out", in("out"), "--dump", "none", "--json"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const std::string what = "mirroring was turned on";
+  const auto place = outcome.err.find(what);
+  ASSERT_NE(place, std::string::npos) << outcome.err;
+  EXPECT_EQ(outcome.err.find(what, place + 1), std::string::npos) << "once, not with each loss";
+  const json device = json::parse(outcome.out)["device"];
+  EXPECT_GE(device["losses"], 1);
+  EXPECT_THAT(device["notes"].dump(), HasSubstr(what));
+}
+
 TEST_F(LiveTest, InterruptedAtAnyMomentItEndsSoonWithWholeFiles) {
   plug_in("&loss_after=20&back_after_ms=120");
   for (int k = 0; k < 12; ++k) {
@@ -184,13 +198,25 @@ TEST_F(LiveTest, RecordsEveryFrameAcrossALoss) {
   plug_in("&loss_after=15&back_after_ms=100");
   const Outcome outcome = run_saccade({"record", "openni2", in("a.oni"), "--frames", "30", "--json"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
-  EXPECT_EQ(json::parse(outcome.out)["frames"], 30);
-  EXPECT_EQ(json::parse(outcome.out)["dropped"], 0);
+  const json summary = json::parse(outcome.out);
+  EXPECT_EQ(summary["frames"], 30);
+  EXPECT_EQ(summary["dropped"], 0);
+  EXPECT_GE(summary["device"]["losses"], 1);
   Recording recording{std::filesystem::path(in("a.oni"))};
   EXPECT_TRUE(is_sound(check_recording(recording)));
   const OniNode* depth = main_depth(recording);
   ASSERT_NE(depth, nullptr);
   ASSERT_EQ(depth->frames.size(), 30U);
+}
+
+TEST_F(LiveTest, FramesThatCannotBeRecordedAreCountedInOneLine) {
+  plug_in("&short_frame=3");
+  const Outcome outcome =
+      run_saccade({"record", "openni2", in("a.oni"), "--mode", "160x120", "--frames", "10", "--json"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_GE(json::parse(outcome.out)["rejected"], 2);
+  EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+  EXPECT_THAT(outcome.err, HasSubstr("frames rejected, the first, frame"));
 }
 
 TEST_F(LiveTest, RecordingEndsWithAWholeFileWhenTheDeviceIsGone) {

@@ -17,6 +17,7 @@
 #include "core/error.hpp"
 #include "drivers/oni_source.hpp"
 #include "oni/writer.hpp"
+#include "tests/drivers/no_wait.hpp"
 
 namespace {
 
@@ -24,7 +25,6 @@ namespace fs = std::filesystem;
 using namespace saccade;
 
 constexpr int kSeeks = 1000;
-constexpr std::chrono::milliseconds kNoWait{0};
 
 double processor_s() {
   timespec now{};

@@ -41,6 +41,23 @@ TEST_P(WorkerPoolOf, RethrowsAndWorksOn) {
   EXPECT_EQ(count, 50);
 }
 
+TEST_P(WorkerPoolOf, GivesUpWhenInterruptedAndWorksOn) {
+  WorkerPool pool(GetParam());
+  std::atomic<int> count = 0;
+  EXPECT_THROW(pool.for_each(1000,
+                             [&](int, int) {
+                               if (++count == 20) pool.interrupt();
+                             }),
+               WorkerPool::Interrupted);
+  EXPECT_GE(count, 20);
+  EXPECT_LT(count, 20 + GetParam()) << "what was begun is ended, and nothing else is begun";
+  EXPECT_THROW(pool.for_each(1, [&](int, int) { FAIL(); }), WorkerPool::Interrupted);
+  pool.resume();
+  count = 0;
+  pool.for_each(50, [&](int, int) { ++count; });
+  EXPECT_EQ(count, 50);
+}
+
 TEST(WorkerPool, RefusesNoWorkers) { EXPECT_THROW(WorkerPool(0), std::invalid_argument); }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "core/file.hpp"
 #include "core/png.hpp"
 #include "drivers/open_source.hpp"
+#include "no_wait.hpp"
 #include "tests/folder_test.hpp"
 
 namespace saccade {
@@ -20,8 +21,6 @@ namespace fs = std::filesystem;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
-
-constexpr std::chrono::milliseconds kNoWait{0};
 
 class FolderSourceTest : public FolderTest {
  protected:

@@ -12,6 +12,7 @@
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "drivers/open_source.hpp"
+#include "no_wait.hpp"
 
 namespace saccade {
 namespace {
@@ -21,7 +22,6 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-constexpr std::chrono::milliseconds kNoWait{0};
 constexpr int kImages = 3, kHeight = 10, kWidth = 12;
 
 class NyuSourceTest : public ::testing::Test {

@@ -9,6 +9,7 @@
 
 #include "core/error.hpp"
 #include "drivers/open_source.hpp"
+#include "no_wait.hpp"
 #include "oni/bytes.hpp"
 #include "oni/writer.hpp"
 #include "tests/folder_test.hpp"
@@ -21,7 +22,6 @@ using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-constexpr std::chrono::milliseconds kNoWait{0};
 constexpr int kFrames = 10;
 
 class OniSourceTest : public FolderTest {

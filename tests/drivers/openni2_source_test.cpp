@@ -15,6 +15,8 @@
 #include "core/error.hpp"
 #include "drivers/open_source.hpp"
 #include "drivers/openni2_devices.hpp"
+#include "drivers/openni2_modes.hpp"
+#include "no_wait.hpp"
 
 namespace saccade {
 namespace {
@@ -42,7 +44,7 @@ class Sensor : public ::testing::Test {
   static std::vector<Frame> originals() {
     const auto source = open_source(kScene);
     std::vector<Frame> frames(kScenes);
-    for (Frame& frame : frames) source->read(frame, milliseconds(0));
+    for (Frame& frame : frames) source->read(frame, kNoWait);
     return frames;
   }
 
@@ -132,6 +134,18 @@ TEST_F(Sensor, ControlsAreReadBackAndHoldForTheFrames) {
   EXPECT_TRUE(found);
 }
 
+TEST_F(Sensor, EachModeThatItTellsCanBeOpened) {
+  const std::vector<SensorMode> modes = open_source("openni2")->controls()->modes();
+  EXPECT_EQ(modes, (std::vector<SensorMode>{{160, 120, 30}, {160, 120, 60}, {80, 60, 30}, {80, 60, 60}}));
+  for (const SensorMode& mode : modes) {
+    SensorSettings settings;
+    settings.mode = mode;
+    const auto source = open_source("openni2", settings);
+    EXPECT_EQ(source->info().size, cv::Size(mode.width, mode.height));
+    EXPECT_EQ(source->info().rate_hz, mode.rate_hz);
+  }
+}
+
 TEST_F(Sensor, DevicesAreListedWhileOneStreams) {
   const auto source = open_source("openni2");
   for (int i = 0; i < 20; ++i) {
@@ -148,7 +162,7 @@ TEST_F(Sensor, LookingIntoADeviceTellsItsModes) {
   look_into(device);
   EXPECT_EQ(device.problem, "");
   EXPECT_EQ(device.serial, "VIRTUAL-1");
-  EXPECT_EQ(device.depth_modes.size(), 4U);
+  EXPECT_EQ(device.depth_modes, open_source("openni2")->controls()->modes());
   EXPECT_EQ(device.colour_modes.size(), 4U);
   device.identity.uri = "absent://1";
   look_into(device);
@@ -167,6 +181,7 @@ TEST_F(Sensor, OneThatIsNotThereIsAnErrorOrIsWaitedFor) {
   settings.wait_s = 1000;
   const auto source = open_source("openni2:absent://1", settings);
   EXPECT_EQ(source->state().connection, SourceState::Connection::waiting);
+  EXPECT_TRUE(source->controls()->modes().empty());
   Frame frame;
   EXPECT_EQ(source->read(frame, milliseconds(1)).status, ReadStatus::timeout);
   source->interrupt();
@@ -176,6 +191,17 @@ TEST_F(Sensor, OneThatIsNotThereIsAnErrorOrIsWaitedFor) {
 }
 
 TEST_F(Sensor, CannotBeRewound) { EXPECT_THROW(open_source("openni2")->seek(0), std::logic_error); }
+
+// As in the viewer: each opening is read by a thread of its own, which ends with it.
+TEST_F(Sensor, CanBeReadByOneThreadAfterAnother) {
+  for (int opening = 0; opening < 3; ++opening) {
+    std::thread([] { next(*open_source("openni2")); }).join();
+    // The memory of a thread that has ended is kept for the next ones; these make it go.
+    std::vector<std::jthread> others(10);
+    for (std::jthread& other : others)
+      other = std::jthread([] { std::this_thread::sleep_for(milliseconds(20)); });
+  }
+}
 
 TEST_F(Sensor, OpensAndClosesAtAnyMoment) {
   std::minstd_rand dice(7);

@@ -9,6 +9,7 @@
 #include "core/file.hpp"
 #include "core/png.hpp"
 #include "drivers/open_source.hpp"
+#include "no_wait.hpp"
 #include "pcd_writer.hpp"
 #include "tests/folder_test.hpp"
 
@@ -20,7 +21,6 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-constexpr std::chrono::milliseconds kNoWait{0};
 constexpr Intrinsics kCamera{40, 41, 12, 9, IntrinsicsOrigin::file};
 
 class OsdSourceTest : public FolderTest {

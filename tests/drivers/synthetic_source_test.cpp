@@ -7,16 +7,16 @@
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
+#include "no_wait.hpp"
 
 namespace saccade {
 namespace {
 
-using std::chrono::milliseconds;
 using testing::HasSubstr;
 
 Frame next(FrameSource& source) {
   Frame frame;
-  EXPECT_EQ(source.read(frame, milliseconds(0)).status, ReadStatus::frame);
+  EXPECT_EQ(source.read(frame, kNoWait).status, ReadStatus::frame);
   return frame;
 }
 
@@ -138,12 +138,12 @@ TEST(SyntheticSource, GivesItsFramesInOrderThenEnds) {
     EXPECT_GT(cv::countNonZero(frame.truth.labels), 100);
   }
   Frame frame;
-  EXPECT_EQ(source.read(frame, milliseconds(0)).status, ReadStatus::end);
-  EXPECT_EQ(source.read(frame, milliseconds(0)).status, ReadStatus::end);
+  EXPECT_EQ(source.read(frame, kNoWait).status, ReadStatus::end);
+  EXPECT_EQ(source.read(frame, kNoWait).status, ReadStatus::end);
   source.seek(3);
   EXPECT_EQ(next(source).index, 3);
   source.seek(4);
-  EXPECT_EQ(source.read(frame, milliseconds(0)).status, ReadStatus::end);
+  EXPECT_EQ(source.read(frame, kNoWait).status, ReadStatus::end);
   EXPECT_THROW(source.seek(-1), std::invalid_argument);
 }
 
@@ -195,10 +195,10 @@ TEST(SyntheticSource, NoiseTouchesDepthAloneAndGroundTruthStaysExact) {
 TEST(SyntheticSource, FramesReuseTheirMemory) {
   SyntheticSource source("synthetic:cone?size=64x48&noise=kinect&camera=orbit");
   Frame frame;
-  source.read(frame, milliseconds(0));
+  source.read(frame, kNoWait);
   const auto *depth = frame.depth_mm.data, *colour = frame.colour.data, *labels = frame.truth.labels.data,
              *normals = frame.truth.normals.data;
-  source.read(frame, milliseconds(0));
+  source.read(frame, kNoWait);
   EXPECT_EQ(frame.depth_mm.data, depth);
   EXPECT_EQ(frame.colour.data, colour);
   EXPECT_EQ(frame.truth.labels.data, labels);

@@ -12,13 +12,13 @@
 #include "drivers/depth_video.hpp"
 #include "drivers/open_source.hpp"
 #include "matroska_writer.hpp"
+#include "no_wait.hpp"
 #include "tests/folder_test.hpp"
 
 namespace saccade {
 namespace {
 
 namespace fs = std::filesystem;
-using std::chrono::milliseconds;
 using ::testing::Contains;
 using ::testing::HasSubstr;
 
@@ -88,7 +88,7 @@ class VideoSourceTest : public FolderTest {
 
 void expect_depth(FrameSource& source, int k) {
   Frame frame;
-  ASSERT_EQ(source.read(frame, milliseconds(0)).status, ReadStatus::frame) << k;
+  ASSERT_EQ(source.read(frame, kNoWait).status, ReadStatus::frame) << k;
   EXPECT_EQ(frame.index, k);
   const cv::Mat1w expected = depth_image(k);
   ASSERT_EQ(frame.depth_mm.size(), expected.size());
@@ -101,13 +101,13 @@ void expect_depth(FrameSource& source, int k) {
 void expect_exact(FrameSource& source) {
   Frame frame;
   for (int k = 0; k < kFrames; ++k) expect_depth(source, k);
-  EXPECT_EQ(source.read(frame, milliseconds(0)).status, ReadStatus::end);
+  EXPECT_EQ(source.read(frame, kNoWait).status, ReadStatus::end);
   for (const int k : {4, 1, 2, 5, 0}) {
     source.seek(k);
     expect_depth(source, k);
   }
   source.seek(kFrames + 3);
-  EXPECT_EQ(source.read(frame, milliseconds(0)).status, ReadStatus::end);
+  EXPECT_EQ(source.read(frame, kNoWait).status, ReadStatus::end);
 }
 
 TEST_F(VideoSourceTest, Ffv1InMatroskaIsExact) {
@@ -120,7 +120,7 @@ TEST_F(VideoSourceTest, Ffv1InMatroskaIsExact) {
   expect_exact(*source);
   source->seek(3);
   Frame frame;
-  source->read(frame, milliseconds(0));
+  source->read(frame, kNoWait);
   EXPECT_NEAR(static_cast<double>(frame.timestamp_us), 100'000, 1000);
 }
 
@@ -154,7 +154,7 @@ TEST_F(VideoSourceTest, ADamagedImageIsRejectedAndTheNextIsGood) {
       continue;
     }
     Frame frame;
-    const ReadResult read = source->read(frame, milliseconds(0));
+    const ReadResult read = source->read(frame, kNoWait);
     EXPECT_EQ(read.status, ReadStatus::rejected);
     EXPECT_THAT(read.reason, HasSubstr(fmt::format("frame {}", k)));
   }
@@ -172,7 +172,7 @@ TEST_F(VideoSourceTest, NumberedImagesAreExactWithColourBeside) {
   for (const int k : {0, 1, 4, 2}) {
     source->seek(k);
     Frame frame;
-    source->read(frame, milliseconds(0));
+    source->read(frame, kNoWait);
     ASSERT_EQ(frame.colour.size(), kSize);
     EXPECT_EQ(frame.colour(3, 3), colour_image(k)(3, 3)) << k;
   }
@@ -186,13 +186,13 @@ TEST_F(VideoSourceTest, ColourBesideAVideoIsTheNearestInTimeAndScaled) {
   for (const int k : {0, 1, 2, 1}) {
     source->seek(k);
     Frame frame;
-    ASSERT_EQ(source->read(frame, milliseconds(0)).status, ReadStatus::frame);
+    ASSERT_EQ(source->read(frame, kNoWait).status, ReadStatus::frame);
     ASSERT_EQ(frame.colour.size(), kSize) << k;
     EXPECT_NEAR(frame.colour(9, 9)[0], 30 * 2 * k, 8) << k;
   }
   source->seek(5);  // 250 ms: the colour has ended at 125 ms
   Frame frame;
-  EXPECT_THAT(source->read(frame, milliseconds(0)).reason, HasSubstr("no colour"));
+  EXPECT_THAT(source->read(frame, kNoWait).reason, HasSubstr("no colour"));
   EXPECT_TRUE(frame.colour.empty());
 }
 
@@ -205,7 +205,7 @@ TEST_F(VideoSourceTest, AColourVideoHasNoDepthAndSaysSo) {
   Frame frame;
   for (const int k : {0, 1, 2, 3, 4, 5, 2, 0}) {
     source->seek(k);
-    ASSERT_EQ(source->read(frame, milliseconds(0)).status, ReadStatus::frame);
+    ASSERT_EQ(source->read(frame, kNoWait).status, ReadStatus::frame);
     EXPECT_EQ(frame.index, k);
     EXPECT_EQ(frame.timestamp_us, 40'000 * k);
     EXPECT_NEAR(frame.colour(9, 9)[0], 30 * k, 8);
@@ -213,7 +213,7 @@ TEST_F(VideoSourceTest, AColourVideoHasNoDepthAndSaysSo) {
     EXPECT_EQ(cv::countNonZero(frame.depth_mm), 0);
   }
   source->seek(kFrames);
-  EXPECT_EQ(source->read(frame, milliseconds(0)).status, ReadStatus::end);
+  EXPECT_EQ(source->read(frame, kNoWait).status, ReadStatus::end);
 }
 
 TEST_F(VideoSourceTest, DepthOfEightBitsIsRefusedWithTheReason) {

@@ -17,7 +17,7 @@ class CloudPanelTest : public ::testing::Test {
 
   test::ImGuiFrames::Drawn draw() {
     return frames_.frame([this] {
-      draw_cloud_panel(state_, frame_, attention_, [this](cv::Size size) {
+      draw_cloud_panel(choices_, state_, frame_, attention_, [this](cv::Size size) {
         size_ = size;
         return ImTextureID(2);
       });
@@ -37,6 +37,7 @@ class CloudPanelTest : public ::testing::Test {
   }
 
   test::ImGuiFrames frames_{640, 520};
+  CloudChoices choices_;
   CloudPanelState state_;
   Frame frame_;
   Attention attention_;
@@ -82,7 +83,7 @@ TEST_F(CloudPanelTest, FixationsAreMarkedWhereTheyAre) {
   EXPECT_NEAR((low.y + high.y) / 2, 520 - 8 - size_.height / 2.0, 3) << "the middle of the canvas";
   EXPECT_LT(low.x, 320);
   EXPECT_GT(high.x, 320 + 60) << "with its position beside it";
-  state_.choices.fixations = false;
+  choices_.fixations = false;
   draw();
   EXPECT_FALSE(test::ImGuiFrames::box_of(IM_COL32(80, 255, 80, 255), low, high));
 }

@@ -1,40 +1,24 @@
 #include "ui/cloud_renderer.hpp"
 
-#include <cstdlib>
+#include <array>
 #include <memory>
 
 #include <epoxy/gl.h>
-#define GLFW_INCLUDE_NONE
-#include <GLFW/glfw3.h>
-#include <gtest/gtest.h>
 
-#include "x_server.hpp"
+#include "gl_test.hpp"
 
 namespace saccade {
 namespace {
 
-// An OpenGL 3.3 context on a display of its own; the tests are skipped where Xvfb is missing.
-class CloudRendererTest : public ::testing::Test {
+class CloudRendererTest : public GlTest {
  protected:
   void SetUp() override {
-    if (!is_installed("Xvfb")) GTEST_SKIP() << "Xvfb is not installed";
-    ASSERT_TRUE(server_.start()) << "Xvfb did not start";
-    ::setenv("DISPLAY", server_.display().c_str(), 1);
-    ::setenv("LIBGL_ALWAYS_SOFTWARE", "1", 1);
-    ASSERT_EQ(glfwInit(), GLFW_TRUE);
-    glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);
-    glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
-    glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
-    glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
-    window_ = glfwCreateWindow(64, 64, "test", nullptr, nullptr);
-    ASSERT_NE(window_, nullptr) << "no OpenGL 3.3";
-    glfwMakeContextCurrent(window_);
-    renderer_ = std::make_unique<CloudRenderer>();
+    GlTest::SetUp();
+    if (!IsSkipped() && !HasFatalFailure()) renderer_ = std::make_unique<CloudRenderer>();
   }
   void TearDown() override {
     renderer_.reset();
-    if (window_ != nullptr) glfwDestroyWindow(window_);
-    glfwTerminate();
+    GlTest::TearDown();
   }
 
   // As an image: top row first.
@@ -49,8 +33,6 @@ class CloudRendererTest : public ::testing::Test {
     return upright;
   }
 
-  XServer server_;
-  GLFWwindow* window_ = nullptr;
   std::unique_ptr<CloudRenderer> renderer_;
 };
 

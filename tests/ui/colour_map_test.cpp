@@ -66,6 +66,7 @@ TEST(ColourMap, ALockedRangeDoesNotFollowTheImage) {
   EXPECT_EQ(after(5, 5), before);
   EXPECT_EQ(before, colours_of(Palette::viridis)[188]) << "45 + 190 * (2500 - 1000) / 2000, rounded to even";
   EXPECT_EQ(after(0, 0), cv::Vec3b());
+  EXPECT_EQ(depth_colour(Palette::viridis, (1000.0 - 500) / 2000), before) << "for the legend";
 }
 
 }  // namespace

@@ -18,24 +18,24 @@ SourceFacts live(double rate_hz) {
 
 TEST(Headline, SaysHowTheSourceDoes) {
   const std::chrono::steady_clock::time_point now{100s};
-  EXPECT_EQ(headline(live(30), now).text, "live 30.0 fps");
+  EXPECT_EQ(headline(live(30), now).text, "Live 30.0 fps");
   EXPECT_EQ(headline(live(30), now).tone, Tone::good);
-  EXPECT_EQ(headline(live(0), now).text, "live, no frames");
+  EXPECT_EQ(headline(live(0), now).text, "Live, no frames");
 
   SourceFacts source = live(0);
   source.connection = {.connection = Connection::waiting, .text = "no sensor is connected"};
-  EXPECT_EQ(headline(source, now).text, "waiting for device");
+  EXPECT_EQ(headline(source, now).text, "Waiting for device");
   source.connection = {.connection = Connection::lost, .text = "", .since = now - 3500ms};
-  EXPECT_EQ(headline(source, now).text, "lost 3 s ago, retrying");
+  EXPECT_EQ(headline(source, now).text, "Lost 3 s ago, retrying");
   source.connection.since = now - 75s;
-  EXPECT_EQ(headline(source, now).text, "lost 1 min 15 s ago, retrying");
+  EXPECT_EQ(headline(source, now).text, "Lost 1 min 15 s ago, retrying");
   source.error = "the device is of another size";
   EXPECT_EQ(headline(source, now).tone, Tone::bad);
 
-  EXPECT_EQ(headline({.open = true, .uri = "a.oni", .rate_hz = 4}, now).text, "playing 4.0 fps");
-  EXPECT_EQ(headline({.open = true, .uri = "a.oni", .paused = true}, now).text, "paused");
-  EXPECT_EQ(headline({.uri = "a.oni"}, now).text, "opening ...");
-  EXPECT_EQ(headline({}, now).text, "no source");
+  EXPECT_EQ(headline({.open = true, .uri = "a.oni", .rate_hz = 4}, now).text, "Playing 4.0 fps");
+  EXPECT_EQ(headline({.open = true, .uri = "a.oni", .paused = true}, now).text, "Paused");
+  EXPECT_EQ(headline({.uri = "a.oni"}, now).text, "Opening …");
+  EXPECT_EQ(headline({}, now).text, "No source");
 }
 
 TEST(RecordingLine, TellsTimeSizeSpaceAndDrops) {
@@ -48,14 +48,14 @@ TEST(RecordingLine, TellsTimeSizeSpaceAndDrops) {
                             .free_bytes = 4'560'000'000,
                             .error = ""};
   EXPECT_EQ(recording_line(recording).text,
-            "recording: 1 min 01 s, 1800 frames, 123.4 MB (4.56 GB free), 0 dropped");
+            "Recording: 1 min 01 s, 1800 frames, 123.4 MB (4.56 GB free), 0 dropped");
   EXPECT_EQ(recording_line(recording).tone, Tone::good);
   recording.dropped = 2;
   EXPECT_EQ(recording_line(recording).tone, Tone::warning);
   recording.phase = RecordingStatus::Phase::idle;
-  EXPECT_THAT(recording_line(recording).text, HasSubstr("recorded: "));
+  EXPECT_THAT(recording_line(recording).text, HasSubstr("Recorded: "));
   recording.error = "the disk is full";
-  EXPECT_THAT(recording_line(recording).text, HasSubstr("ended early: "));
+  EXPECT_THAT(recording_line(recording).text, HasSubstr("Ended early: "));
 }
 
 class SensorPanelTest : public ::testing::Test {

@@ -184,6 +184,31 @@ TEST_F(SessionTest, SeeksExactly) {
   }
 }
 
+TEST_F(SessionTest, AStartBehindTheEndIsToldAsSuch) {
+  const auto session = make();
+  session->open({.uri = "ball", .range = {.start = 30}});
+  ASSERT_TRUE(wait_for([&] { return session->state().phase == Phase::ended; }));
+  EXPECT_THAT(session->state().error, HasSubstr("--start 30 is behind the last frame"));
+}
+
+TEST_F(SessionTest, AnotherCameraHoldsForTheFrameThatIsShown) {
+  const auto session = make();
+  session->playback().pause();
+  session->open({.uri = "ball"});
+  ASSERT_TRUE(wait_for([&] { return session->latest() != nullptr; }));
+  const Intrinsics own = session->latest()->frame().intrinsics;
+  Wishes wishes;
+  wishes.a = session->latest()->a.settings;
+  const cv::Mat1f before = session->latest()->a.result.maps.master.clone();
+  wishes.a.intrinsics = Intrinsics{2 * own.fx, 2 * own.fy, own.cx, own.cy};
+  session->set_wishes(wishes);
+  EXPECT_TRUE(wait_for([&] { return session->latest()->frame().intrinsics.fx == 2 * own.fx; }));
+  EXPECT_GT(cv::norm(session->latest()->a.result.maps.master, before), 0) << "the map is made anew";
+  session->set_wishes({});
+  EXPECT_TRUE(wait_for([&] { return session->latest()->frame().intrinsics.fx == own.fx; }))
+      << "the source's own again";
+}
+
 TEST_F(SessionTest, AsFastAsPossibleComputesEveryFrame) {
   const auto session = make();
   session->playback().set_loop(false);
@@ -191,6 +216,15 @@ TEST_F(SessionTest, AsFastAsPossibleComputesEveryFrame) {
   session->open({.uri = "ball"});
   ASSERT_TRUE(wait_for([&] { return session->state().ledger.processed == 30; }));
   EXPECT_EQ(session->state().ledger.dropped, 0);
+}
+
+TEST_F(SessionTest, TellsWhetherItComputes) {
+  const auto session = make();
+  session->playback().set_speed(0);
+  session->open({.uri = "ball"});
+  EXPECT_TRUE(wait_for([&] { return session->state().computing; }));
+  session->playback().pause();
+  EXPECT_TRUE(wait_for([&] { return !session->state().computing; }));
 }
 
 TEST_F(SessionTest, OpeningOverAndOverEndsWithTheNewest) {

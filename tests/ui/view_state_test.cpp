@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "ui/command_line.hpp"
+#include "ui/settings_history.hpp"
 #include "ui/shortcuts.hpp"
 
 namespace saccade {
@@ -53,6 +54,7 @@ TEST(ViewState, ComesBackFromItsJson) {
   state.comparison = Comparison::split;
   state.divider = 0.3;
   state.centre = Centre::both;
+  state.cloud = {CloudColour::saliency, false, true, false, 2.5F};
   state.theme = Theme::light;
   state.sidebar_width = 420;
   state.is_open(Section::probe) = true;
@@ -65,6 +67,7 @@ TEST(ViewState, ComesBackFromItsJson) {
   EXPECT_EQ(view_state_json(back), view_state_json(state));
   EXPECT_TRUE(back.tuning == state.tuning);
   EXPECT_EQ(back.style.map, state.style.map);
+  EXPECT_EQ(back.cloud, state.cloud);
   EXPECT_EQ(back.window, state.window);
   EXPECT_THAT(back.recent, ElementsAre("b", "a.oni"));
 }

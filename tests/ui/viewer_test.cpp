@@ -12,6 +12,7 @@
 #include "core/png.hpp"
 #include "drivers/oni_source.hpp"
 #include "ui/overlay.hpp"
+#include "x_desktop.hpp"
 #include "x_program.hpp"
 
 namespace saccade {
@@ -38,6 +39,29 @@ class ViewerTest : public XProgramTest {
     return shot(cv::Rect(area.x + (area.width - size.width) / 2, area.y + (area.height - size.height) / 2,
                          size.width, size.height) &
                 cv::Rect({}, shot.size()));
+  }
+
+  // What the viewer finds of the last time.
+  void keep_state(std::string_view json) const {
+    std::filesystem::create_directory(folder_ / "saccade");
+    write_file(in("saccade/viewer.json"), json);
+  }
+
+  void start_sensor(const char* device) {
+    ::setenv("SACCADE_VIRTUAL_DEVICE", device, 1);
+    start({"openni2"});
+    ::unsetenv("SACCADE_VIRTUAL_DEVICE");
+  }
+
+  // From one moment on the log does not grow, however long the machine takes to get there.
+  bool draws_nothing() const {
+    const auto frames = [this] { return now()["frames"].get<std::int64_t>(); };
+    for (int i = 0; i < 60; ++i) {
+      const std::int64_t before = frames();
+      std::this_thread::sleep_for(std::chrono::seconds(1));
+      if (frames() == before) return true;
+    }
+    return false;
   }
 
   void type_source(const std::string& uri) const {
@@ -96,9 +120,7 @@ TEST_F(ViewerTest, TheScreenshotShowsTheFrameAtAnyScale) {
   source.seek(5);
   Frame frame;
   source.read(frame, std::chrono::milliseconds(0));
-  std::filesystem::create_directory(folder_ / "saccade");
-  write_file(in("saccade/viewer.json"),
-             std::string_view(R"({"map": false, "marks": false, "path": false, "outlines": false})"));
+  keep_state(R"({"map": false, "marks": false, "path": false, "outlines": false})");
   for (const char* scale : {"1", "2"}) {
     ASSERT_EQ(run({kTable, "--start", "5", "--frames", "1", "--size", "1280x800", "--ui-scale", scale,
                    "--screenshot", in("shot.png")}),
@@ -128,12 +150,12 @@ TEST_F(ViewerTest, PlaysTunesComparesAndQuits) {
 
   hand("key bracketright");
   EXPECT_TRUE(until([](const Json& j) { return shown(j, "kernel") == 17 && shown(j, "index") == 8; }));
-  drag("kernel", 0.15, 0.6);
-  EXPECT_TRUE(until([](const Json& j) { return j["kernel"] > 60 && shown(j, "kernel") == j["kernel"]; }));
+  drag("kernel", 0.15, 0.3);
+  EXPECT_TRUE(until([](const Json& j) { return j["kernel"] > 30 && shown(j, "kernel") == j["kernel"]; }));
   hand("key ctrl+z");
   EXPECT_TRUE(until([](const Json& j) { return shown(j, "kernel") == 17; })) << "the drag was one step";
   hand("key ctrl+shift+z");
-  EXPECT_TRUE(until([](const Json& j) { return shown(j, "kernel") > 60; }));
+  EXPECT_TRUE(until([](const Json& j) { return shown(j, "kernel") > 30; }));
   hand("key m");
   EXPECT_TRUE(until([](const Json& j) { return shown(j, "model") == "combined"; }));
 
@@ -161,25 +183,69 @@ TEST_F(ViewerTest, RecordsAndTakesSnapshots) {
   std::set<std::string> kinds;
   for (const auto& entry : std::filesystem::directory_iterator(snapshot)) {
     const std::string name = entry.path().filename();
-    kinds.insert(name.substr(name.find('_')));
+    kinds.insert(name == "settings.toml" ? name : name.substr(name.find('_')));
     if (name.ends_with("overlay.png")) {
       EXPECT_EQ(decode_png(read_file(entry.path())).size(), cv::Size(640, 480));
     }
   }
-  EXPECT_EQ(kinds,
-            (std::set<std::string>{"_fixations.json", "_overlay.png", "_saliency.png", "_saliency.tiff"}));
+  EXPECT_EQ(kinds, (std::set<std::string>{"_fixations.json", "_overlay.png", "_saliency.png",
+                                          "_saliency.tiff", "settings.toml"}));
   EXPECT_TRUE(now()["errors"].empty());
 }
 
 TEST_F(ViewerTest, RecordsASensorAndPlaysItAgain) {
-  ::setenv("SACCADE_VIRTUAL_DEVICE", "synthetic:table?noise=kinect&frames=90", 1);
-  start({"openni2"});
-  ::unsetenv("SACCADE_VIRTUAL_DEVICE");
+  start_sensor("synthetic:table?noise=kinect&frames=90");
   const std::filesystem::path file = record_and_check(5);
   type_source(file.string());
   EXPECT_TRUE(until([&](const Json& j) { return j["source"] == file.string() && shown(j, "index") >= 1; }))
       << "the recording is played";
   EXPECT_TRUE(now()["errors"].empty());
+}
+
+// What a person changes at a sensor, what undo makes of it, and a sensor that goes and comes back.
+TEST_F(ViewerTest, ASensorIsSetAndSetBack) {
+  keep_state(R"({"open": {"tuning": false, "look": false, "sensors": true}})");
+  start_sensor("synthetic:table?noise=kinect");
+  ASSERT_TRUE(until([](const Json& j) {
+    return j.value("mirror", true) == false && j["places"].contains("Mirror") && j["places"].contains("Mode");
+  }));
+  click("Mirror", 0.2);
+  EXPECT_TRUE(until([](const Json& j) { return j["mirror"] == true; }));
+  hand("key ctrl+z");
+  EXPECT_TRUE(until([](const Json& j) { return j["mirror"] == false; })) << "undone at the device too";
+  click("Registration", 0.2);
+  EXPECT_TRUE(until([](const Json& j) { return j["registration"] == false; }));
+
+  click("Mode", 0.5);
+  ASSERT_TRUE(until([](const Json& j) { return j["places"].contains("320x240@30"); }));
+  click("320x240@30", 0.5);
+  EXPECT_TRUE(until([](const Json& j) { return shown(j, "size") == Json{320, 240}; }));
+  EXPECT_TRUE(until([](const Json& j) { return j.value("registration", true) == false; }))
+      << "it holds for the next opening";
+  EXPECT_TRUE(now()["errors"].empty());
+}
+
+TEST_F(ViewerTest, ALostSensorIsTakenUpAgain) {
+  start_sensor("synthetic:table?size=160x120&loss_after=20&back_after_ms=3000");
+  EXPECT_TRUE(until([](const Json& j) { return j["connection"] == 2 && j["losses"] == 1; })) << "lost";
+  EXPECT_TRUE(until([](const Json& j) { return j["connection"] == 0 && shown(j, "index") > 20; })) << "back";
+  EXPECT_TRUE(now()["errors"].empty());
+}
+
+TEST_F(ViewerTest, AFileThatIsDroppedIsOpened) {
+  start({"synthetic:sphere", "--paused"});
+  EXPECT_TRUE(XDesktop(display(), "saccade").drop(kTable));
+  EXPECT_TRUE(until([](const Json& j) { return j["source"] == kTable && j.contains("shown"); }));
+}
+
+TEST_F(ViewerTest, MinimisedItComputesButDoesNotDraw) {
+  start({kTable});
+  XDesktop desktop(display(), "saccade");
+  desktop.minimise();
+  EXPECT_TRUE(draws_nothing());
+  const std::int64_t processed = now()["processed"];
+  desktop.restore();
+  EXPECT_TRUE(until([&](const Json& j) { return j["processed"] > processed + 1; })) << "it went on";
 }
 
 TEST_F(ViewerTest, AnErrorLeavesTheWindowAlive) {
@@ -192,17 +258,25 @@ TEST_F(ViewerTest, AnErrorLeavesTheWindowAlive) {
   EXPECT_TRUE(until([](const Json& j) { return j["errors"].empty() && j.contains("shown"); }));
 }
 
+TEST_F(ViewerTest, ShowsADraftOfWhatTakesLongAndGoesOnDrawing) {
+  start({kTable, "--paused", "--kernel", "61"});
+  const auto whole = [](int kernel) {
+    return [kernel](const Json& j) { return shown(j, "kernel") == kernel && shown(j, "draft") == false; };
+  };
+  ASSERT_TRUE(until(whole(61)));
+  hand("key bracketleft");
+  ASSERT_TRUE(until(whole(59)));
+  const std::int64_t generation = now()["generation"];
+  int with_draft = 0;
+  for (const Json& j : lines())
+    if (j["generation"] == generation && shown(j, "generation") == generation && shown(j, "draft") == true)
+      ++with_draft;
+  EXPECT_GE(with_draft, 3) << "frames of the window between the draft and the whole";
+}
+
 TEST_F(ViewerTest, IdleItDrawsNothing) {
   start({kTable, "--paused"});
-  // From one moment on the log does not grow, however long the machine takes to get there.
-  const auto frames = [this] { return now()["frames"].get<std::int64_t>(); };
-  bool still = false;
-  for (int i = 0; i < 60 && !still; ++i) {
-    const std::int64_t before = frames();
-    std::this_thread::sleep_for(std::chrono::seconds(1));
-    still = frames() == before;
-  }
-  EXPECT_TRUE(still);
+  EXPECT_TRUE(draws_nothing());
 }
 
 TEST_F(ViewerTest, WithoutADisplayItSaysSoInOneLine) {

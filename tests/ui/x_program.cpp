@@ -77,12 +77,20 @@ void XProgramTest::start(const std::vector<std::string>& arguments) {
 
 int XProgramTest::wait_for_exit() { return exit_status(std::exchange(program_, -1)); }
 
+std::vector<Json> XProgramTest::lines() const {
+  std::ifstream log(folder_ / "log");
+  std::vector<Json> all;
+  for (std::string line; std::getline(log, line);)
+    if (!log.eof()) all.push_back(Json::parse(line, nullptr, false));  // the last may be on its way
+  return all;
+}
+
 Json XProgramTest::now() const {
   std::ifstream log(folder_ / "log");
-  Json newest;
+  std::string newest;
   for (std::string line; std::getline(log, line);)
-    if (!log.eof()) newest = Json::parse(line, nullptr, false);  // the last line may be on its way
-  return newest;
+    if (!log.eof()) newest.swap(line);
+  return newest.empty() ? Json() : Json::parse(newest, nullptr, false);
 }
 
 ::testing::AssertionResult XProgramTest::until(const std::function<bool(const Json&)>& condition) const {
@@ -111,10 +119,13 @@ std::pair<int, int> XProgramTest::place_of(const std::string& place, double acro
 }
 
 void XProgramTest::click(const std::string& place, double across) const {
-  const auto [x, y] = place_of(place, across);
-  // A person needs a tenth of a second too; ImGui looks at the mouse once a frame.
-  hand("mousemove " + std::to_string(x) + " " + std::to_string(y) +
-       " sleep 0.3 mousedown 1 sleep 0.3 mouseup 1");
+  // What a person aims at may still be moving; and ImGui looks at the mouse once a frame.
+  std::pair<int, int> aim{-1, -1};
+  for (auto at = place_of(place, across); at != aim; at = place_of(place, across)) {
+    aim = at;
+    hand("mousemove " + std::to_string(aim.first) + " " + std::to_string(aim.second) + " sleep 0.3");
+  }
+  hand("mousedown 1 sleep 0.3 mouseup 1");
 }
 
 void XProgramTest::drag(const std::string& place, double from, double to) const {

@@ -30,6 +30,9 @@ class XProgramTest : public FolderTest {
   /// Starts the program and waits for its end; the exit status. `display` = false: without any.
   int run(const std::vector<std::string>& arguments, bool display = true);
 
+  /// The log: a line of each frame of the window.
+  std::vector<nlohmann::json> lines() const;
+
   /// The newest line of the log.
   nlohmann::json now() const;
 
@@ -46,6 +49,7 @@ class XProgramTest : public FolderTest {
   /// The exit status of what start() started.
   int wait_for_exit();
 
+  const std::string& display() const { return server_.display(); }
   std::string in(const std::string& name) const { return (folder_ / name).string(); }
 
  private:

@@ -84,7 +84,7 @@ bool Viewer::act_on_tuning(Action action) {
       state_.tuning = history_.now();
       return true;
     case Action::swap_sides:
-      std::swap(state_.tuning.a, state_.tuning.b);
+      swap_sides(state_.tuning);
       return true;
     case Action::copy_command:
       copy_command();

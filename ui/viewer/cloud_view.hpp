@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "ui/cloud_panel.hpp"
 #include "ui/cloud_scene.hpp"
 #include "ui/viewer/view_context.hpp"
 

@@ -2,6 +2,7 @@
 #include <cstring>
 #include <filesystem>
 
+#include <fmt/format.h>
 #include <imgui.h>
 
 #include "core/error.hpp"
@@ -129,14 +130,14 @@ void SettingsDialog::draw(ViewContext& view) {
       write_file(path_, std::string_view(settings_toml(view.state.edited())));
       view.tell(std::string("Saved ") + path_);
     });
-  tip("Writes the settings that are not the default; an existing file is replaced");
+  explain("Writes the settings that are not the default; an existing file is replaced");
   ImGui::SameLine();
   if (ImGui::Button("Load"))
     attempt([&] {
-      Settings loaded;
-      load_settings(loaded, path_);
-      view.state.edited() = loaded;
-      view.tell(std::string("Loaded ") + path_);
+      const bool into_b = view.state.comparing() && view.state.edit_b;
+      const std::vector<std::string> left = load_tuning(view.state.tuning, into_b, path_);
+      view.tell(fmt::format("Loaded {}{}{}", path_,
+                            left.empty() ? "" : "; for the command line only: ", fmt::join(left, ", ")));
     });
   ImGui::SameLine();
   if (ImGui::Button("Cancel")) ImGui::CloseCurrentPopup();

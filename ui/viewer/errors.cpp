@@ -30,7 +30,8 @@ void draw_notes(ViewContext& view) {
   ImGui::PopTextWrapPos();
   ImGui::SetCursorPos({ImGui::GetWindowWidth() - view.px(12) - ImGui::GetFrameHeight(), view.px(8)});
   if (ImGui::Button("×##notes")) view.notes.clear();
-  tip("Put this away");
+  note_place(view, "put notes away");
+  explain("Put this away");
   ImGui::EndChild();
   ImGui::PopStyleColor();
 }
@@ -64,7 +65,8 @@ void draw_errors(ViewContext& view) {
       ImGui::SetCursorPosX(ImGui::GetWindowWidth() - view.px(12) - ImGui::GetFrameHeight());
     }
     if (ImGui::Button("×")) gone = i;
-    tip("Put this away");
+    note_place(view, "put error away");
+    explain("Put this away");
     ImGui::EndChild();
     ImGui::PopStyleColor();
     ImGui::PopID();

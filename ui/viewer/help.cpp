@@ -24,7 +24,7 @@ void draw_help(ViewContext& view, bool& open) {
         if (!group.empty()) ImGui::Dummy({0, view.px(6)});
         if (s.group == "Picture") ImGui::TableNextColumn();
         group = s.group;
-        ImGui::PushFont(view.bold);
+        ImGui::PushFont(view.fonts.bold);
         ImGui::TextUnformatted(group.data(), group.data() + group.size());
         ImGui::PopFont();
       }

@@ -32,7 +32,7 @@ void draw_range(ViewContext& view, const char* id, std::optional<ValueRange>& ra
   ImGui::PushID(id);
   bool locked = range.has_value();
   if (ImGui::Checkbox("Lock range", &locked)) range = locked ? std::optional(automatic) : std::nullopt;
-  tip("Keep the range from frame to frame, so that colours can be compared");
+  explain("Keep the range from frame to frame, so that colours can be compared");
   if (range) {
     ImGui::SameLine(view.px(112) + ImGui::GetStyle().WindowPadding.x);
     ImGui::SetNextItemWidth(-1);
@@ -46,25 +46,25 @@ void draw_range(ViewContext& view, const char* id, std::optional<ValueRange>& ra
 
 void draw_look_panel(ViewContext& view) {
   OverlayStyle& style = view.state.style;
-  row(view, "Picture");
+  named_row("Background");
   int background = static_cast<int>(style.background);
   if (segments(view, "background", {"colour", "depth"}, background))
     style.background = static_cast<Background>(background);
   if (style.background == Background::depth) {
-    row(view, "Depth colours");
+    named_row("Depth colours");
     palette_combo("##depth_palette", style.depth.palette);
     const auto automatic = view.result ? percentile_range(view.result->frame().depth_mm, 100) : std::nullopt;
     draw_range(view, "depth", style.depth.range_mm, automatic.value_or(ValueRange{500, 4000}), 10, "%.0f mm");
   }
   ImGui::Spacing();
   ImGui::Checkbox("Saliency map", &view.state.show_map);
-  tip(with_key("Show the map", Action::toggle_map));
+  explain(with_key("Show the map", Action::toggle_map));
   if (view.state.show_map) {
-    row(view, "Map colours");
+    named_row("Map colours");
     palette_combo("##palette", style.map.palette);
-    row(view, "Opacity", "Of the most salient pixel; less salient ones are more transparent");
+    named_row("Opacity", "Of the most salient pixel; less salient ones are more transparent");
     share_slider("##opacity", style.map.opacity);
-    row(view, "Threshold", "What is below this share of the range is not drawn");
+    named_row("Threshold", "What is below this share of the range is not drawn");
     share_slider("##threshold", style.map.threshold);
     const ValueRange automatic =
         view.result ? shown_range(view.result->a.smooth, MapStyle{}) : ValueRange{0, 1};
@@ -72,13 +72,13 @@ void draw_look_panel(ViewContext& view) {
   }
   ImGui::Spacing();
   ImGui::Checkbox("Fixations", &style.marks);
-  tip(with_key("Numbered, the first in green", Action::toggle_marks));
+  explain(with_key("Numbered, the first in green", Action::toggle_marks));
   ImGui::SameLine(0, view.px(14));
   ImGui::Checkbox("Scan path", &style.path);
-  tip(with_key("Lines from one to the next", Action::toggle_path));
+  explain(with_key("Lines from one to the next", Action::toggle_path));
   ImGui::SameLine(0, view.px(14));
   ImGui::Checkbox("Outlines", &style.outlines);
-  tip(with_key("Of the proto-objects", Action::toggle_outlines));
+  explain(with_key("Of the proto-objects", Action::toggle_outlines));
 }
 
 }  // namespace saccade

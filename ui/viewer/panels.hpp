@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "ui/viewer/picture_drawing.hpp"
 #include "ui/viewer/probe_section.hpp"
 #include "ui/viewer/sensor_section.hpp"
 #include "ui/viewer/view_context.hpp"
@@ -17,6 +18,13 @@ void draw_look_panel(ViewContext& view);
 void draw_transport(ViewContext& view);
 void draw_errors(ViewContext& view);
 void draw_performance_section(ViewContext& view);
+
+/// What is open and how it does.
+SourceFacts source_facts(const ViewContext& view);
+
+/// In the middle of the window, from `low` to `high`, and large: that there is nothing to see yet and why, or
+/// that the sensor is lost. Nothing while all is well.
+void draw_state_banner(const ViewContext& view, ImVec2 low, ImVec2 high);
 
 /// Windows over the others; `open` is what makes them appear and is cleared when they are put away.
 void draw_help(ViewContext& view, bool& open);
@@ -68,9 +76,8 @@ class PicturePanel {
 
  private:
   struct Layers;
-  struct Place;
-  void draw_side(ViewContext& view, const Place& place);
-  void handle_mouse(ViewContext& view, const Place& place);
+  void draw_side(ViewContext& view, const PictureSide& side);
+  void handle_mouse(ViewContext& view, const PictureSide& side);
   std::unique_ptr<Layers> layers_;
 };
 

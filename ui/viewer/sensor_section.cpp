@@ -8,14 +8,14 @@
 
 #include "core/error.hpp"
 #include "drivers/openni2_devices.hpp"
+#include "ui/sensor_wishes.hpp"
 #include "ui/snapshot.hpp"
+#include "ui/viewer/panels.hpp"
+#include "ui/viewer/widgets.hpp"
 #include "ui/viewer/window.hpp"
 
 namespace saccade {
 namespace {
-
-// What sensors of this kind offer; one that lacks a mode says what it has when it is opened.
-const std::vector<std::string> kUsualModes = {"640x480@30", "320x240@60", "320x240@30", "1280x1024@30"};
 
 std::vector<DeviceChoice> connected_sensors() {
   std::vector<DeviceChoice> choices;
@@ -25,8 +25,15 @@ std::vector<DeviceChoice> connected_sensors() {
   return choices;
 }
 
-std::string mode_text(const SourceInfo& source) {
-  return fmt::format("{}x{}@{:.0f}", source.size.width, source.size.height, source.rate_hz);
+SensorMode mode_of(const SourceInfo& source) {
+  return {source.size.width, source.size.height, cvRound(source.rate_hz)};
+}
+
+// Not on the thread that draws: a network disk may let one wait.
+std::optional<std::uint64_t> free_space(const std::filesystem::path& folder) {
+  std::error_code code;
+  const std::filesystem::space_info space = std::filesystem::space(folder, code);
+  return code ? std::nullopt : std::optional<std::uint64_t>(space.available);
 }
 
 std::filesystem::path folder_for_files() {
@@ -72,6 +79,7 @@ void SensorSection::end_recording() {
 
 void SensorSection::take_news(ViewContext& view) {
   take_snapshot_result(view);
+  if (snapshot_due_) snapshot(view);
   view.recording = recording_->status();
   if (recording_told_ || view.recording.phase != RecordingStatus::Phase::idle) return;
   recording_told_ = true;
@@ -84,6 +92,8 @@ void SensorSection::take_news(ViewContext& view) {
 
 void SensorSection::snapshot(ViewContext& view) {
   if (!view.result || writing_.valid()) return;
+  snapshot_due_ = view.result->draft;  // the whole map is on its way
+  if (snapshot_due_) return;
   snapshot_ = "writing the snapshot ...";
   snapshot_error_.clear();
   OverlayStyle style = view.state.style;
@@ -92,7 +102,7 @@ void SensorSection::snapshot(ViewContext& view) {
     struct Wake {  // also when the disk is full
       ~Wake() { Window::wake(); }
     } const wake;
-    return write_snapshot(folder, result->a.result, style, std::chrono::system_clock::now());
+    return write_snapshot(folder, *result, style, std::chrono::system_clock::now());
   });
 }
 
@@ -109,36 +119,28 @@ void SensorSection::take_snapshot_result(ViewContext& view) {
   }
 }
 
-// What comes from the source, computed or not.
-double SensorSection::captured_rate_hz(const Ledger& ledger) {
-  constexpr std::chrono::seconds kRecent{2};
+void SensorSection::look_at_disk() {
+  constexpr std::chrono::seconds kPeriod{2};
   const auto now = std::chrono::steady_clock::now();
-  if (!captured_.empty() && ledger.captured < captured_.back().frames) captured_.clear();  // another source
-  captured_.push_back({now, ledger.captured});
-  while (now - captured_.front().at > kRecent && captured_.size() > 2) captured_.pop_front();
-  const double span_s = std::chrono::duration<double>(now - captured_.front().at).count();
-  return span_s > 0 ? static_cast<double>(ledger.captured - captured_.front().frames) / span_s : 0;
+  if (looking_.valid()) {
+    if (looking_.wait_for(std::chrono::seconds(0)) == std::future_status::ready) free_bytes_ = looking_.get();
+  } else if (now - looked_ > kPeriod) {
+    looked_ = now;
+    looking_ = std::async(std::launch::async, [folder = folder_] { return free_space(folder); });
+  }
 }
 
 SensorFacts SensorSection::facts(const ViewContext& view) {
   SensorFacts facts;
-  const SessionState& session = view.source;
-  facts.source.open = session.phase == SessionState::Phase::open;
-  facts.source.uri = session.uri;
-  facts.source.live = session.source.live;
-  facts.source.paused = view.playback.paused;
-  facts.source.rate_hz = captured_rate_hz(session.ledger);
-  facts.source.connection = session.connection;
-  facts.source.error = session.error;
+  facts.source = source_facts(view);
   const DeviceWatch::Seen seen = devices_.seen();
   facts.devices = seen.devices;
   facts.devices_error = seen.error;
-  if (facts.source.open && session.source.kind == "openni2") {
-    facts.modes = kUsualModes;
-    facts.mode = mode_text(session.source);
-    facts.values = view.session.sensor_values();
-  }
+  facts.modes = view.session.sensor_modes();
+  facts.mode = mode_of(view.source.source);
+  facts.values = view.session.sensor_values();
   facts.folder = folder_.string();
+  facts.free_bytes = free_bytes_;
   facts.recording = view.recording;
   facts.snapshot = snapshot_;
   facts.snapshot_error = snapshot_error_;
@@ -146,15 +148,17 @@ SensorFacts SensorSection::facts(const ViewContext& view) {
 }
 
 void SensorSection::draw(ViewContext& view) {
-  const SensorActions actions = draw_sensor_panel(facts(view), std::chrono::steady_clock::now());
+  look_at_disk();
+  const SensorFacts now = facts(view);
+  const SensorActions actions = draw_sensor_panel(now, std::chrono::steady_clock::now(), view.fonts.large);
+  for (const ItemPlace& place : actions.places) note_place(view, place);
   if (actions.toggle_recording) toggle_recording(view);
   if (actions.snapshot) snapshot(view);
-  if (actions.request) view.session.request_sensor(*actions.request);
+  // The settings say what is wanted of the sensor; the viewer asks it for what has changed.
+  SensorSettings& wanted = view.state.tuning.a.sensor;
+  if (actions.request) take_request(wanted, *actions.request, now.values);
+  if (actions.mode) wanted.mode = actions.mode;
   if (actions.open) view.open(*actions.open);
-  if (actions.mode) {
-    apply_setting(view.state.tuning.a, "mode", *actions.mode);
-    view.open(view.source.uri);
-  }
 }
 
 }  // namespace saccade

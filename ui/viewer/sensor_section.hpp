@@ -1,7 +1,6 @@
 #pragma once
 
 #include <chrono>
-#include <deque>
 #include <filesystem>
 #include <future>
 #include <memory>
@@ -39,19 +38,18 @@ class SensorSection {
  private:
   SensorFacts facts(const ViewContext& view);
   void take_snapshot_result(ViewContext& view);
-  double captured_rate_hz(const Ledger& ledger);
+  void look_at_disk();
 
   const std::filesystem::path folder_;
   // Shared with the capture thread, which may still be in it when a recording or the viewer ends.
   const std::shared_ptr<RecordingSession> recording_ = std::make_shared<RecordingSession>();
   Playback* tapped_ = nullptr;
   DeviceWatch devices_;
-  struct Captured {
-    std::chrono::steady_clock::time_point at;
-    std::int64_t frames;
-  };
-  std::deque<Captured> captured_;               // of the last two seconds
+  std::future<std::optional<std::uint64_t>> looking_;
+  std::chrono::steady_clock::time_point looked_{};
+  std::optional<std::uint64_t> free_bytes_;     // of the folder's disk
   std::future<std::filesystem::path> writing_;  // the snapshot on its way to the disk
+  bool snapshot_due_ = false;                   // as soon as the map is whole
   std::string snapshot_, snapshot_error_;
   bool recording_told_ = true;  // how the last one ended
 };

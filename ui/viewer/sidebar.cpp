@@ -24,7 +24,7 @@ void Sidebar::draw(ViewContext& view) {
   for (const SidebarSection& s : kSidebar) {
     ImGui::PushID(s.title);
     ImGui::SetNextItemOpen(view.state.is_open(s.section));
-    ImGui::PushFont(view.bold);
+    ImGui::PushFont(view.fonts.bold);
     const bool open = ImGui::CollapsingHeader(s.title);
     ImGui::PopFont();
     view.state.is_open(s.section) = open;

@@ -2,7 +2,7 @@
 
 #include <epoxy/gl.h>
 
-#include <stdexcept>
+#include <opencv2/imgproc.hpp>
 
 namespace saccade {
 
@@ -10,9 +10,8 @@ Texture::~Texture() {
   if (name_ != 0) glDeleteTextures(1, &name_);
 }
 
-void Texture::upload(const cv::Mat& picture) {
-  if (!picture.isContinuous() || (picture.type() != CV_8UC3 && picture.type() != CV_8UC4))
-    throw std::invalid_argument("Texture: a continuous BGR or RGBA picture expected");
+void Texture::upload(const cv::Mat3b& picture) {
+  cv::cvtColor(picture, pixels_, cv::COLOR_BGR2BGRA);
   if (name_ == 0) {
     glGenTextures(1, &name_);
     glBindTexture(GL_TEXTURE_2D, name_);
@@ -22,24 +21,24 @@ void Texture::upload(const cv::Mat& picture) {
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   }
   glBindTexture(GL_TEXTURE_2D, name_);
-  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-  const GLenum format = picture.type() == CV_8UC3 ? GL_BGR : GL_RGBA;
-  if (size_ != picture.size() || type_ != picture.type()) {
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
+  // BGRA of 8 bits is what graphics cards keep: nothing needs to be converted.
+  if (size_ != picture.size()) {
     size_ = picture.size();
-    type_ = picture.type();
-    glTexImage2D(GL_TEXTURE_2D, 0, format == GL_BGR ? GL_RGB8 : GL_RGBA8, size_.width, size_.height, 0,
-                 format, GL_UNSIGNED_BYTE, picture.data);
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, size_.width, size_.height, 0, GL_BGRA,
+                 GL_UNSIGNED_INT_8_8_8_8_REV, pixels_.data);
   } else {
-    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, size_.width, size_.height, format, GL_UNSIGNED_BYTE,
-                    picture.data);
+    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, size_.width, size_.height, GL_BGRA, GL_UNSIGNED_INT_8_8_8_8_REV,
+                    pixels_.data);
   }
 }
 
-void Texture::set_sharp(bool sharp) {
-  if (name_ == 0 || sharp == sharp_) return;
+bool Texture::set_sharp(bool sharp) {
+  if (name_ == 0 || sharp == sharp_) return false;
   sharp_ = sharp;
   glBindTexture(GL_TEXTURE_2D, name_);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, sharp ? GL_NEAREST : GL_LINEAR);
+  return true;
 }
 
 }  // namespace saccade

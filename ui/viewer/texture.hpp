@@ -13,11 +13,11 @@ class Texture {
   Texture(const Texture&) = delete;
   Texture& operator=(const Texture&) = delete;
 
-  /// BGR (CV_8UC3) or RGBA (CV_8UC4); the old picture's memory is used again if the size is the same.
-  void upload(const cv::Mat& picture);
+  /// BGR; the old picture's memory is used again if the size is the same.
+  void upload(const cv::Mat3b& picture);
 
-  /// Shows single pixels as squares, or blends them.
-  void set_sharp(bool sharp);
+  /// Shows single pixels as squares, or blends them; returns whether that is new.
+  bool set_sharp(bool sharp);
 
   ImTextureID id() const { return reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(name_)); }
   bool empty() const { return name_ == 0; }
@@ -25,7 +25,7 @@ class Texture {
  private:
   unsigned name_ = 0;
   cv::Size size_;
-  int type_ = 0;
+  cv::Mat4b pixels_;  // BGRA, kept for its memory
   bool sharp_ = false;
 };
 

@@ -9,7 +9,7 @@
 namespace saccade {
 namespace {
 
-constexpr double kFontSize_px = 15;
+constexpr double kFontSize_px = 15, kLargeFontSize_px = 24;
 
 struct FontFiles {
   const char *regular, *bold;
@@ -57,12 +57,12 @@ const ThemeColours kLight = {.text = rgb(0x1c2228),
                              .behind = {0.925, 0.937, 0.949}};
 
 struct Surface {
-  unsigned window, frame, frame_hovered, frame_active, button, button_hovered, popup;
+  unsigned window, frame, frame_hovered, frame_active, button, button_hovered, popup, grab, odd_row;
 };
-constexpr Surface kDarkSurface = {rgb(0x14171b), rgb(0x272c34), rgb(0x313842), rgb(0x3a4350),
-                                  rgb(0x2b313a), rgb(0x38414d), rgb(0x20252c)};
-constexpr Surface kLightSurface = {rgb(0xeceff2), rgb(0xe3e7ec), rgb(0xd6dce3), rgb(0xc8d1da),
-                                   rgb(0xe0e5ea), rgb(0xd0d8e0), rgb(0xffffff)};
+constexpr Surface kDarkSurface = {rgb(0x14171b), rgb(0x272c34), rgb(0x313842), rgb(0x3a4350), rgb(0x2b313a),
+                                  rgb(0x38414d), rgb(0x20252c), rgb(0x2f7fb5), rgb(0x22272e)};
+constexpr Surface kLightSurface = {rgb(0xeceff2), rgb(0xe3e7ec), rgb(0xd6dce3), rgb(0xc8d1da), rgb(0xe0e5ea),
+                                   rgb(0xd0d8e0), rgb(0xffffff), rgb(0x8fc3e8), rgb(0xf3f5f7)};
 
 }  // namespace
 
@@ -109,31 +109,40 @@ void apply_theme(Theme theme, double scale) {
   set(ImGuiCol_Header, s.button);
   set(ImGuiCol_HeaderHovered, s.button_hovered);
   set(ImGuiCol_HeaderActive, s.frame_active);
-  set(ImGuiCol_SliderGrab, c.accent);
-  set(ImGuiCol_SliderGrabActive, c.accent);
+  set(ImGuiCol_SliderGrab, s.grab);  // the value stands on it: it must be readable there
+  set(ImGuiCol_SliderGrabActive, s.grab);
   set(ImGuiCol_CheckMark, c.accent);
   set(ImGuiCol_TextSelectedBg, faint(90));
   set(ImGuiCol_NavHighlight, c.accent);
   set(ImGuiCol_PlotLines, c.plot);
   set(ImGuiCol_PlotHistogram, c.plot);
   set(ImGuiCol_ScrollbarBg, 0);
+  set(ImGuiCol_TableHeaderBg, s.frame);
+  set(ImGuiCol_TableRowBg, 0);
+  set(ImGuiCol_TableRowBgAlt, s.odd_row);
+  set(ImGuiCol_TableBorderLight, c.line);
+  set(ImGuiCol_TableBorderStrong, c.line);
   set(ImGuiCol_ModalWindowDimBg, rgb(0x000000, 110));
   style.ScaleAllSizes(static_cast<float>(scale));
   ImGui::GetStyle() = style;
 }
 
-ImFont* load_fonts(double scale) {
+Fonts load_fonts(double scale) {
   ImFontAtlas& atlas = *ImGui::GetIO().Fonts;
   atlas.Clear();
   const auto size = static_cast<float>(std::round(kFontSize_px * scale));
+  const auto large = static_cast<float>(std::round(kLargeFontSize_px * scale));
   for (const FontFiles& files : kFonts) {
     if (!std::filesystem::exists(files.regular) || !std::filesystem::exists(files.bold)) continue;
     atlas.AddFontFromFileTTF(files.regular, size, nullptr, kGlyphs.data());
-    return atlas.AddFontFromFileTTF(files.bold, size, nullptr, kGlyphs.data());
+    return {atlas.AddFontFromFileTTF(files.bold, size, nullptr, kGlyphs.data()),
+            atlas.AddFontFromFileTTF(files.bold, large, nullptr, kGlyphs.data())};
   }
   ImFontConfig config;
   config.SizePixels = static_cast<float>(std::round(13 * scale));
-  return atlas.AddFontDefault(&config);
+  ImFont* const usual = atlas.AddFontDefault(&config);
+  config.SizePixels = static_cast<float>(std::round(2 * 13 * scale));
+  return {usual, atlas.AddFontDefault(&config)};
 }
 
 }  // namespace saccade

@@ -20,8 +20,13 @@ const ThemeColours& colours_of(Theme theme);
 /// Sets ImGui's style for a theme and a scale.
 void apply_theme(Theme theme, double scale);
 
-/// Makes the font atlas for a scale: a system font, or ImGui's own where none is found. Returns the bold one.
-ImFont* load_fonts(double scale);
+/// Besides the usual font.
+struct Fonts {
+  ImFont *bold = nullptr, *large = nullptr;
+};
+
+/// Makes the font atlas for a scale: a system font, or ImGui's own where none is found.
+Fonts load_fonts(double scale);
 
 /// A theme's colour as ImGui's styles want it.
 ImVec4 as_vec4(unsigned colour);

@@ -10,7 +10,6 @@ namespace saccade {
 namespace {
 
 using Phase = SessionState::Phase;
-using Connection = SourceState::Connection;
 
 std::string short_name(const std::string& uri) {
   if (uri.find(':') != std::string::npos && !std::filesystem::exists(uri)) return uri;
@@ -21,29 +20,23 @@ std::string short_name(const std::string& uri) {
 // What is open and how it is doing, in plain words.
 std::string source_line(const ViewContext& view) {
   const SessionState& s = view.source;
-  if (s.phase == Phase::idle) return "Nothing is open";
-  if (s.phase == Phase::opening) return "Opening…";
-  if (s.phase == Phase::ended) return s.error.empty() ? "No more frames" : "Could not go on";
-  if (s.source.live) {
-    switch (s.connection.connection) {
-      case Connection::waiting:
-        return "Waiting for device";
-      case Connection::lost:
-        return "Lost, trying again";
-      case Connection::streaming:
-        if (view.playback.paused) return "Live, paused";
-        return fmt::format("Live {:.1f} fps", view.history.rate_hz(StageHistory::Clock::now()));
-    }
+  const auto now = StageHistory::Clock::now();
+  if (s.phase == Phase::ended && s.error.empty()) return "No more frames";
+  if (s.phase != Phase::open || s.source.live) {
+    std::string line = headline(source_facts(view), now).text;
+    if (s.phase == Phase::open && view.captured_hz > 0 && !view.playback.paused &&
+        s.connection.connection == SourceState::Connection::streaming)
+      line += fmt::format(", {:.1f} computed", view.history.rate_hz(now));
+    return line;
   }
   const std::string size = fmt::format("{} × {}", s.source.size.width, s.source.size.height);
   return s.source.frame_count ? fmt::format("{}, {} frames", size, *s.source.frame_count) : size;
 }
 
-unsigned state_colour(const ViewContext& view) {
+ImVec4 state_colour(const ViewContext& view) {
   const SessionState& s = view.source;
-  if (s.phase == Phase::ended && !s.error.empty()) return view.colours->error;
-  if (s.connection.connection != Connection::streaming) return view.colours->warning;
-  return view.colours->dim_text;
+  if (s.phase == Phase::open && !s.source.live) return tone_colour(Tone::quiet);
+  return tone_colour(headline(source_facts(view), StageHistory::Clock::now()).tone);
 }
 
 float width_of(const std::vector<std::string>& names, const ViewContext& view) {
@@ -59,7 +52,8 @@ void draw_top_bar(ViewContext& view) {
   static const std::vector<std::string> centres = {"Picture", "Points", "Both"};
   static const std::vector<std::string> comparisons = {"A", "A | B", "Split"};
   if (ImGui::Button("Open…")) view.act(Action::open_source);
-  tip(with_key("Open a recording, a folder or a sensor; or drop one onto the window", Action::open_source));
+  explain(
+      with_key("Open a recording, a folder or a sensor; or drop one onto the window", Action::open_source));
   note_place(view, "open");
   ImGui::SameLine(0, view.px(14));
 
@@ -73,21 +67,21 @@ void draw_top_bar(ViewContext& view) {
   ImGui::PushClipRect(corner, {ImGui::GetWindowPos().x + name_right, corner.y + ImGui::GetFrameHeight()},
                       true);
   ImGui::AlignTextToFramePadding();
-  ImGui::PushFont(view.bold);
+  ImGui::PushFont(view.fonts.bold);
   ImGui::TextUnformatted(view.source.uri.empty() ? "Saccade" : short_name(view.source.uri).c_str());
   ImGui::PopFont();
-  tip(view.source.uri);
+  explain(view.source.uri);
   ImGui::SameLine(0, view.px(10));
-  ImGui::PushStyleColor(ImGuiCol_Text, as_vec4(state_colour(view)));
+  ImGui::PushStyleColor(ImGuiCol_Text, state_colour(view));
   ImGui::TextUnformatted(source_line(view).c_str());
   ImGui::PopStyleColor();
-  tip(view.source.connection.text);
+  explain(view.source.connection.text);
   if (view.recording.phase == RecordingStatus::Phase::recording) {
     const auto s = static_cast<int>(view.recording.seconds);
     ImGui::SameLine(0, view.px(14));
     ImGui::TextColored(as_vec4(view.colours->error), "%s",
                        fmt::format("Recording {}:{:02}", s / 60, s % 60).c_str());
-    tip(view.recording.file.string());
+    explain(view.recording.file.string());
   }
   ImGui::PopClipRect();
 
@@ -98,14 +92,14 @@ void draw_top_bar(ViewContext& view) {
   int comparison = static_cast<int>(view.state.comparison);
   if (segments(view, "comparison", comparisons, comparison))
     view.state.comparison = static_cast<Comparison>(comparison);
-  tip(with_key("Compare two models or kernels on the same frame", Action::next_comparison));
+  explain(with_key("Compare two models or kernels on the same frame", Action::next_comparison));
   ImGui::SameLine(0, gap);
   if (ImGui::Button(view.state.theme == Theme::dark ? "Light" : "Dark", {theme_width, 0}))
     view.act(Action::toggle_theme);
-  tip(with_key("Dark or light", Action::toggle_theme));
+  explain(with_key("Dark or light", Action::toggle_theme));
   ImGui::SameLine(0, gap / 2);
   if (ImGui::Button("?")) view.act(Action::show_help);
-  tip(with_key("Keyboard shortcuts", Action::show_help));
+  explain(with_key("Keyboard shortcuts", Action::show_help));
 }
 
 }  // namespace saccade

@@ -21,52 +21,41 @@ void draw_speed(ViewContext& view) {
         view.session.playback().set_speed(speed);
     ImGui::EndCombo();
   }
-  tip(with_key("Speed", Action::slower) + ", " + key_name(Action::faster));
+  explain(with_key("Speed", Action::slower) + ", " + key_name(Action::faster));
 }
 
-// Recording and snapshot.
+// A button that does what a shortcut does; `gap` stands before it.
+void action_button(ViewContext& view, const char* name, Icon icon, Action action, const std::string& text,
+                   float gap, bool lit = false) {
+  if (gap > 0) ImGui::SameLine(0, gap);
+  ImGui::PushID(name);
+  if (icon_button(view, "##button", icon, lit, with_key(text, action))) view.act(action);
+  ImGui::PopID();
+  note_place(view, name);
+}
+
 void draw_keeping(ViewContext& view) {
   const bool recording = view.recording.phase == RecordingStatus::Phase::recording;
-  ImGui::SameLine(0, view.px(10));
-  if (icon_button(view, "##record", Icon::record, recording,
-                  with_key(recording ? "Stop recording" : "Record to an .oni file", Action::record)))
-    view.act(Action::record);
-  note_place(view, "record");
-  ImGui::SameLine(0, view.px(3));
-  if (icon_button(view, "##snapshot", Icon::camera, false,
-                  with_key("Snapshot: overlay, saliency map and fixations", Action::snapshot)))
-    view.act(Action::snapshot);
+  action_button(view, "record", Icon::record, Action::record,
+                recording ? "Stop recording" : "Record to an .oni file", view.px(10), recording);
+  action_button(view, "snapshot", Icon::camera, Action::snapshot,
+                "Snapshot: overlay, saliency map and fixations", view.px(3));
 }
 
 void draw_buttons(ViewContext& view) {
-  const bool paused = view.playback.paused, live = view.source.source.live;
+  const bool paused = view.playback.paused, live = view.source.source.live, loop = view.playback.loop;
   const float gap = view.px(3);
   if (!live) {
-    if (icon_button(view, "##first", Icon::first, false, with_key("First frame", Action::first_frame)))
-      view.act(Action::first_frame);
-    ImGui::SameLine(0, gap);
-    if (icon_button(view, "##back", Icon::step_back, false, with_key("One frame back", Action::step_back)))
-      view.act(Action::step_back);
-    ImGui::SameLine(0, gap);
+    action_button(view, "first", Icon::first, Action::first_frame, "First frame", 0);
+    action_button(view, "back", Icon::step_back, Action::step_back, "One frame back", gap);
   }
-  if (icon_button(view, "##play", paused ? Icon::play : Icon::pause, false,
-                  with_key(paused ? "Play" : "Pause", Action::play_pause)))
-    view.act(Action::play_pause);
-  note_place(view, "play");
-  if (live) {
-    draw_keeping(view);
-    return;
-  }
-  ImGui::SameLine(0, gap);
-  if (icon_button(view, "##on", Icon::step_on, false, with_key("One frame on", Action::step_on)))
-    view.act(Action::step_on);
-  ImGui::SameLine(0, gap);
-  if (icon_button(view, "##last", Icon::last, false, with_key("Last frame", Action::last_frame)))
-    view.act(Action::last_frame);
-  ImGui::SameLine(0, view.px(10));
-  if (icon_button(view, "##loop", Icon::loop, view.playback.loop,
-                  with_key(view.playback.loop ? "Loop is on" : "Loop is off", Action::toggle_loop)))
-    view.act(Action::toggle_loop);
+  action_button(view, "play", paused ? Icon::play : Icon::pause, Action::play_pause,
+                paused ? "Play" : "Pause", live ? 0 : gap);
+  if (live) return draw_keeping(view);
+  action_button(view, "on", Icon::step_on, Action::step_on, "One frame on", gap);
+  action_button(view, "last", Icon::last, Action::last_frame, "Last frame", gap);
+  action_button(view, "loop", Icon::loop, Action::toggle_loop, loop ? "Loop is on" : "Loop is off",
+                view.px(10), loop);
   draw_keeping(view);
   ImGui::SameLine(0, view.px(10));
   draw_speed(view);

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include <imgui.h>
 #include <nlohmann/json.hpp>
 #include <opencv2/core.hpp>
 
@@ -17,8 +18,6 @@
 #include "ui/timeline.hpp"
 #include "ui/view_state.hpp"
 #include "ui/viewer/theme.hpp"
-
-struct ImFont;
 
 namespace saccade {
 
@@ -41,16 +40,21 @@ struct ViewContext {
   RecordingStatus recording;  ///< of the recording that runs, or of the last one
   std::string snapshot;       ///< folder of the last snapshot; empty = there was none
 
+  double captured_hz = 0;  ///< frames that came from the source of late, computed or not
+  bool can_undo = false, can_redo = false;
+
   double busy_ms = 0, longest_ms = 0;  ///< what the window's last frame took to draw; the longest of all
 
   double unit = 1;  ///< pixels of ImGui for one of a screen of usual density
-  ImFont* bold = nullptr;
+  Fonts fonts;
   const ThemeColours* colours = nullptr;
 
   std::optional<cv::Point> pointer;  ///< pixel of the frame under the mouse
   bool pointer_on_b = false;         ///< it is over B's picture
   /// Draws over the picture with the next frame of the window; may be empty.
   std::function<void(ImDrawList&, const PicturePlace&)> over_picture;
+
+  std::vector<ImTextureID> renewed;  ///< textures whose pixels have changed; cleared before each frame
 
   std::vector<std::string> errors;  ///< to be shown until they are put away; one line each
   std::vector<std::string> notes;   ///< what is to be known of the source, until it is put away

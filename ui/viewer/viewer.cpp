@@ -7,7 +7,7 @@
 
 #include "core/error.hpp"
 #include "core/png.hpp"
-#include "ui/viewer/widgets.hpp"
+#include "ui/sensor_wishes.hpp"
 
 namespace saccade {
 namespace {
@@ -15,7 +15,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr int kFramesAfterEvent = 3;  // ImGui's layout settles with the second, hovering with the third
-constexpr double kSlowRefresh_s = 0.25, kIdle_s = 60, kSettling_s = 0.03;
+constexpr double kSlowRefresh_s = 0.25, kIdle_s = 60, kHeartbeat_s = 0.025;
 
 bool same_wishes(const Wishes& x, const Wishes& y) {
   return same_settings(x.a, y.a) && x.b.has_value() == y.b.has_value() &&
@@ -39,6 +39,7 @@ Viewer::Viewer(ViewState state, ViewerOptions options, Session::Open open_functi
       view_(state_, session_),
       history_(state_.tuning),
       sent_{state_.tuning.a, {}, {}} {
+  share_source(state_.tuning);
   view_.act = [this](Action action) { act(action); };
   view_.open = [this](const std::string& uri) { open(uri); };
   if (!options_.log.empty()) log_.emplace(options_.log);
@@ -52,8 +53,7 @@ Viewer::Viewer(ViewState state, ViewerOptions options, Session::Open open_functi
 
 void Viewer::run() {
   while (!window_.should_close()) {
-    // Drawing that only settles the layout must not take the processor from the result that is awaited.
-    window_.wait(frames_due_ == 0 ? idle_s() : awaits_result() ? kSettling_s : 0);
+    window_.wait(frames_due_ == 0 ? idle_s() : 0);
     const auto begin = Clock::now();
     if (stopped_) window_.close();
     const bool event = window_.take_event();
@@ -62,7 +62,7 @@ void Viewer::run() {
       frames_due_ = kFramesAfterEvent;
     else if (woken)
       frames_due_ = std::max(frames_due_, view_.playback.paused ? kFramesAfterEvent : 1);
-    else if (refresh_)
+    else if (refresh_ || computing())
       frames_due_ = std::max(frames_due_, 1);
     take_news();
     if (window_.hidden()) frames_due_ = 0;
@@ -71,6 +71,7 @@ void Viewer::run() {
     draw_frame();
     const double busy_ms = std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
     ++frames_;
+    drawn_at_ = begin;
     view_.busy_ms = busy_ms;
     view_.longest_ms = std::max(view_.longest_ms, busy_ms);
     log_frame(busy_ms);
@@ -84,12 +85,19 @@ void Viewer::stop() noexcept {
   Window::wake();
 }
 
-double Viewer::idle_s() const { return refresh_ ? kSlowRefresh_s : kIdle_s; }
+double Viewer::idle_s() const {
+  if (!computing()) return refresh_ ? kSlowRefresh_s : kIdle_s;
+  const double since_s = std::chrono::duration<double>(Clock::now() - drawn_at_).count();
+  return std::max(kHeartbeat_s - since_s, 1e-3);
+}
+
+// While it computes the window shows that it lives, however long that takes.
+bool Viewer::computing() const { return view_.source.computing || awaits_result(); }
 
 // A wish was sent and what it makes of the frame is on its way.
 bool Viewer::awaits_result() const {
   return view_.source.phase == SessionState::Phase::open && view_.result &&
-         view_.result->generation < generation_;
+         (view_.result->generation < generation_ || view_.result->draft);
 }
 
 // What the session has for us; cheap, and done while the window is hidden too.
@@ -105,6 +113,8 @@ void Viewer::take_news() {
   }
   take_errors();
   fit_to_source();
+  captured_.count(view_.source.ledger.captured, Clock::now());
+  view_.captured_hz = captured_.rate_hz();
   sidebar_.sensors().take_news(view_);
   for (const std::string& path : window_.take_dropped()) open(path);
   const bool live = view_.source.source.live && view_.source.phase == SessionState::Phase::open;
@@ -137,8 +147,8 @@ void Viewer::fit_to_source() {
 
 void Viewer::scale_ui() {
   const double scale = state_.ui_scale > 0 ? state_.ui_scale : window_.screen_scale();
-  if (scale != scale_ || !view_.bold) {
-    view_.bold = load_fonts(scale);
+  if (scale != scale_ || view_.fonts.bold == nullptr) {
+    view_.fonts = load_fonts(scale);
     window_.renew_fonts();
   } else if (theme_ == state_.theme) {
     return;
@@ -154,112 +164,16 @@ void Viewer::draw_frame() {
   window_.begin_frame();
   handle_keys();
   view_.wants = {};
+  view_.can_undo = history_.can_undo();
+  view_.can_redo = history_.can_redo();
+  view_.renewed.clear();
   draw_window();
-  if (!ImGui::IsAnyItemActive()) {
-    history_.change(state_.tuning);
-    history_.commit();
-  }
+  share_source(state_.tuning);
+  history_.change(state_.tuning);
+  if (!ImGui::IsAnyItemActive()) history_.commit();
   send_wishes();
-  window_.end_frame(view_.colours->behind, [this] { before_show(); });
-}
-
-void Viewer::draw_window() {
-  ImGui::SetNextWindowPos({0, 0});
-  ImGui::SetNextWindowSize(ImGui::GetIO().DisplaySize);
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
-  ImGui::Begin("##saccade", nullptr,
-               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
-                   ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoSavedSettings |
-                   ImGuiWindowFlags_NoScrollWithMouse);
-  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0, 0});
-  const auto part = [&](const char* id, ImVec2 size, const auto& draw) {
-    ImGui::PushStyleColor(ImGuiCol_ChildBg, as_vec4(view_.colours->panel));
-    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {view_.px(12), view_.px(8)});
-    ImGui::BeginChild(id, size, false, ImGuiWindowFlags_AlwaysUseWindowPadding);
-    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {view_.px(8), view_.px(7)});
-    draw();
-    ImGui::PopStyleVar();
-    ImGui::EndChild();
-    ImGui::PopStyleVar();
-    ImGui::PopStyleColor();
-  };
-  part("top", {0, ImGui::GetFrameHeight() + view_.px(16)}, [&] { draw_top_bar(view_); });
-  ImGui::Dummy({0, view_.px(1)});
-  const float sidebar = state_.sidebar ? view_.px(state_.sidebar_width) : 0;
-  const float height = ImGui::GetContentRegionAvail().y;
-  ImGui::BeginChild("body", {ImGui::GetContentRegionAvail().x - sidebar, height});
-  draw_body(height);
-  ImGui::EndChild();
-  if (state_.sidebar) {
-    ImGui::SameLine();
-    part("sidebar", {0, height}, [&] { sidebar_.draw(view_); });
-  }
-  ImGui::PopStyleVar(2);
-  draw_notice();
-  open_dialog_.draw(view_);
-  settings_dialog_.draw(view_);
-  draw_help(view_, help_);
-  ImGui::End();
-}
-
-void Viewer::draw_body(float height) {
-  const float timeline = view_.source.source.live ? 0 : ImGui::GetFontSize() + view_.px(34 + 7 + 4);
-  const float transport = ImGui::GetFrameHeight() + view_.px(16) + timeline;
-  const float before = ImGui::GetCursorPosY();
-  draw_errors(view_);
-  const float errors = ImGui::GetCursorPosY() - before;
-  ImGui::BeginChild("centre", {0, std::max(1.0F, height - transport - errors - view_.px(1))}, false,
-                    ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse);
-  draw_centre();
-  ImGui::EndChild();
-  ImGui::Dummy({0, view_.px(1)});
-  ImGui::PushStyleColor(ImGuiCol_ChildBg, as_vec4(view_.colours->panel));
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {view_.px(12), view_.px(8)});
-  ImGui::BeginChild("transport", {0, transport}, false,
-                    ImGuiWindowFlags_AlwaysUseWindowPadding | ImGuiWindowFlags_NoScrollbar);
-  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {view_.px(8), view_.px(7)});
-  draw_transport(view_);
-  ImGui::PopStyleVar();
-  ImGui::EndChild();
-  ImGui::PopStyleVar();
-  ImGui::PopStyleColor();
-}
-
-void Viewer::draw_centre() {
-  const bool both = state_.centre == Centre::both;
-  const ImVec2 room = ImGui::GetContentRegionAvail();
-  if (state_.centre == Centre::cloud) view_.pointer.reset();
-  if (state_.centre != Centre::cloud) {
-    ImGui::BeginChild("picture", {both ? room.x / 2 - view_.px(1) : 0, 0}, false,
-                      ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse);
-    picture_.draw(view_);
-    ImGui::EndChild();
-  }
-  view_.over_picture = nullptr;  // the side bar, which is drawn later, says it anew
-  if (both) ImGui::SameLine(0, view_.px(2));
-  if (state_.centre != Centre::picture) {
-    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {view_.px(8), view_.px(7)});
-    ImGui::BeginChild("cloud", {0, 0}, false,
-                      ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse);
-    cloud_.draw(view_);
-    ImGui::EndChild();
-    ImGui::PopStyleVar();
-  }
-}
-
-void Viewer::draw_notice() {
-  if (view_.notice.empty()) return;
-  if (ImGui::GetTime() > view_.notice_until) {
-    view_.notice.clear();
-    return;
-  }
-  const ImVec2 size = ImGui::CalcTextSize(view_.notice.c_str()), screen = ImGui::GetIO().DisplaySize;
-  const ImVec2 pad{view_.px(14), view_.px(8)};
-  const ImVec2 corner{(screen.x - size.x) / 2 - pad.x, view_.px(64)};
-  ImDrawList& draw = *ImGui::GetForegroundDrawList();
-  draw.AddRectFilled(corner, {corner.x + size.x + 2 * pad.x, corner.y + size.y + 2 * pad.y},
-                     IM_COL32(20, 24, 29, 235), view_.px(8));
-  draw.AddText({corner.x + pad.x, corner.y + pad.y}, IM_COL32(235, 238, 242, 255), view_.notice.c_str());
+  follow_sensor();
+  window_.end_frame(view_.colours->behind, view_.renewed, [this] { before_show(); });
 }
 
 void Viewer::send_wishes() {
@@ -276,8 +190,19 @@ void Viewer::send_wishes() {
   view_.timeline.age();
 }
 
+// An open sensor gets what was changed in its settings, by its controls, by undo or by a file.
+void Viewer::follow_sensor() {
+  if (view_.source.phase != SessionState::Phase::open || !view_.source.source.live) return;
+  const SensorSettings& wanted = state_.tuning.a.sensor;
+  if (wanted.mode != sent_sensor_.mode) return open(view_.source.uri);
+  const SensorValues request = changed_values(sent_sensor_, wanted);
+  if (request != SensorValues{}) session_.request_sensor(request);
+  sent_sensor_ = wanted;
+}
+
 void Viewer::open(const std::string& uri) {
-  OpenRequest request{uri, {}, options_.source.intrinsics, state_.tuning.a.sensor};
+  OpenRequest request{uri, {}, state_.tuning.a.sensor};
+  sent_sensor_ = request.sensor;
   if (uri == options_.source.uri) request.range = options_.source.range;
   sidebar_.sensors().end_recording();  // a file is of one source
   session_.open(request);
@@ -296,8 +221,8 @@ void Viewer::open(const std::string& uri) {
 }
 
 void Viewer::before_show() {
-  if (options_.screenshot.empty() || !view_.result || view_.result->serial < options_.after_frames ||
-      view_.result->generation < generation_)
+  if (options_.screenshot.empty() || !view_.result || view_.result->computed < options_.after_frames ||
+      awaits_result())
     return;
   frames_due_ = kFramesAfterEvent;
   if (--shot_countdown_ > 0) return;
@@ -328,17 +253,28 @@ void Viewer::log_frame(double busy_ms) {
       {"generation", generation_},
       {"window", {window.width, window.height}},
       {"processed", view_.source.ledger.processed},
+      {"connection", static_cast<int>(view_.source.connection.connection)},
+      {"losses", view_.source.connection.losses},
       {"recording", view_.recording.phase != RecordingStatus::Phase::idle},
       {"recorded", {{"file", view_.recording.file.string()}, {"frames", view_.recording.frames}}},
       {"snapshot", view_.snapshot},
       {"places", view_.places}};
+  const SensorValues sensor = session_.sensor_values();
+  if (sensor.mirror) line["mirror"] = *sensor.mirror;
+  if (sensor.registration) line["registration"] = *sensor.registration;
   if (view_.result) {
     const Computed& shown = view_.result->a;
-    line["shown"] = {
-        {"index", view_.result->frame().index},   {"serial", view_.result->serial},
-        {"generation", view_.result->generation}, {"model", shown.settings.model},
-        {"kernel", shown.settings.kernel},        {"fixations", shown.result.attention.fixations.size()},
-        {"compared", view_.result->compared},     {"error", shown.error}};
+    const cv::Size size = view_.result->frame().size();
+    line["shown"] = {{"index", view_.result->frame().index},
+                     {"size", {size.width, size.height}},
+                     {"serial", view_.result->serial},
+                     {"generation", view_.result->generation},
+                     {"model", shown.settings.model},
+                     {"kernel", shown.settings.kernel},
+                     {"fixations", shown.result.attention.fixations.size()},
+                     {"compared", view_.result->compared},
+                     {"error", shown.error},
+                     {"draft", view_.result->draft}};
   }
   log_->append(line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
 }

@@ -8,6 +8,8 @@
 #include <string>
 
 #include "core/file.hpp"
+#include "ui/rate_meter.hpp"
+#include "ui/settings_history.hpp"
 #include "ui/source_fit.hpp"
 #include "ui/viewer/cloud_view.hpp"
 #include "ui/viewer/panels.hpp"
@@ -44,6 +46,7 @@ class Viewer {
 
  private:
   double idle_s() const;
+  bool computing() const;
   bool awaits_result() const;
   void take_news();
   void take_errors();
@@ -61,6 +64,7 @@ class Viewer {
   void act_on_window(Action action);
   void copy_command();
   void send_wishes();
+  void follow_sensor();
   void open(const std::string& uri);
   void scale_ui();
   void before_show();
@@ -82,6 +86,8 @@ class Viewer {
   SettingsDialog settings_dialog_;
   bool help_ = false;
   Wishes sent_;
+  SensorSettings sent_sensor_;
+  RateMeter captured_;
   std::int64_t generation_ = 0, a_since_ = 0;  // of the wishes sent last; since when A is what it is
   double scale_ = 0;
   Theme theme_ = Theme::dark;
@@ -90,6 +96,7 @@ class Viewer {
   std::string told_error_;
   std::optional<LineFile> log_;
   std::int64_t frames_ = 0;
+  std::chrono::steady_clock::time_point drawn_at_{};
   int shot_countdown_ = 3;  // frames for the layout to settle
 };
 

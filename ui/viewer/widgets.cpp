@@ -61,7 +61,7 @@ bool icon_button(ViewContext& view, const char* id, Icon icon, bool lit, const s
             !lit                   ? c.text
             : icon == Icon::record ? c.error
                                    : c.accent);
-  tip(text);
+  explain(text);
   return pressed;
 }
 
@@ -88,15 +88,6 @@ bool segments(ViewContext& view, const char* id, const std::vector<std::string>&
   return changed;
 }
 
-void row(ViewContext& view, const char* name, const char* text) {
-  const float left = ImGui::GetCursorPosX();
-  ImGui::AlignTextToFramePadding();
-  ImGui::TextUnformatted(name);
-  if (text != nullptr) tip(text);
-  ImGui::SameLine(left + view.px(112));
-  ImGui::SetNextItemWidth(-1);
-}
-
 bool word_combo(const char* id, const std::vector<std::string>& words, std::string& word) {
   bool changed = false;
   if (!ImGui::BeginCombo(id, word.c_str(), ImGuiComboFlags_HeightLargest)) return false;
@@ -109,23 +100,15 @@ bool word_combo(const char* id, const std::vector<std::string>& words, std::stri
   return changed;
 }
 
-void tip(const std::string& text) {
-  if (text.empty() || !ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
-  ImGui::BeginTooltip();
-  ImGui::PushTextWrapPos(ImGui::GetFontSize() * 24);
-  ImGui::TextUnformatted(text.c_str());
-  ImGui::PopTextWrapPos();
-  ImGui::EndTooltip();
-}
-
 std::string with_key(const std::string& text, Action action) {
   const std::string key = key_name(action);
   return key.empty() ? text : text + " (" + key + ")";
 }
 
-void note_place(ViewContext& view, const char* name) {
-  const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
-  view.places[name] = {low.x, low.y, high.x, high.y};
+void note_place(ViewContext& view, const char* name) { note_place(view, place_of_item(name)); }
+
+void note_place(ViewContext& view, const ItemPlace& place) {
+  view.places[place.name] = {place.low.x, place.low.y, place.high.x, place.high.y};
 }
 
 }  // namespace saccade

@@ -8,6 +8,7 @@
 #include <opencv2/core.hpp>
 
 #include "ui/overlay_shapes.hpp"
+#include "ui/panel_parts.hpp"
 #include "ui/viewer/view_context.hpp"
 
 namespace saccade {
@@ -21,18 +22,15 @@ bool icon_button(ViewContext& view, const char* id, Icon icon, bool lit, const s
 /// A row of exclusive choices; returns true if `chosen` changed.
 bool segments(ViewContext& view, const char* id, const std::vector<std::string>& names, int& chosen);
 
-/// Begins a row: its name at the left, the widget that follows fills the rest.
-void row(ViewContext& view, const char* name, const char* tip = nullptr);
-
 /// A combo box over words; true if `word` changed.
 bool word_combo(const char* id, const std::vector<std::string>& words, std::string& word);
 
-/// A tool tip for the item before, with the key of an action.
-void tip(const std::string& text);
+/// A text for explain() with the key of an action.
 std::string with_key(const std::string& text, Action action);
 
 /// Remembers where the item before is.
 void note_place(ViewContext& view, const char* name);
+void note_place(ViewContext& view, const ItemPlace& place);
 
 inline unsigned as_u32(Rgba c) { return IM_COL32(c.r, c.g, c.b, c.a); }
 inline ImVec2 as_imvec(cv::Point2d p) { return {static_cast<float>(p.x), static_cast<float>(p.y)}; }

@@ -2,7 +2,6 @@
 
 #include <backends/imgui_impl_glfw.h>
 #include <backends/imgui_impl_opengl3.h>
-#include <epoxy/gl.h>
 #include <imgui.h>
 
 #define GLFW_INCLUDE_NONE
@@ -12,8 +11,6 @@
 #include <cctype>
 #include <optional>
 #include <utility>
-
-#include <opencv2/imgproc.hpp>
 
 #include "core/error.hpp"
 
@@ -62,6 +59,7 @@ Window::Window(const std::string& title, cv::Size size) {
   glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
   glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
   glfwWindowHintString(GLFW_X11_CLASS_NAME, "saccade");
+  glfwWindowHintString(GLFW_X11_INSTANCE_NAME, "saccade");  // GLFW uses both or none
   window_ = glfwCreateWindow(size.width, size.height, title.c_str(), nullptr, nullptr);
   if (window_ == nullptr) {
     const std::string reason = glfw_reason();
@@ -98,8 +96,12 @@ void Window::start_imgui() {
   glfwSetCursorPosCallback(window_, [](GLFWwindow* w, double, double) { note(w); });
   glfwSetWindowFocusCallback(window_, [](GLFWwindow* w, int) { note(w); });
   glfwSetCursorEnterCallback(window_, [](GLFWwindow* w, int) { note(w); });
-  glfwSetFramebufferSizeCallback(window_, [](GLFWwindow* w, int, int) { note(w); });
-  glfwSetWindowRefreshCallback(window_, [](GLFWwindow* w) { note(w); });
+  static const auto expose = [](GLFWwindow* window) {
+    note(window);
+    events(window).exposed = true;
+  };
+  glfwSetFramebufferSizeCallback(window_, [](GLFWwindow* w, int, int) { expose(w); });
+  glfwSetWindowRefreshCallback(window_, [](GLFWwindow* w) { expose(w); });
   glfwSetWindowIconifyCallback(window_, [](GLFWwindow* w, int) { note(w); });
   glfwSetWindowCloseCallback(window_, [](GLFWwindow* w) { note(w); });
   glfwSetDropCallback(window_, [](GLFWwindow* w, int count, const char** paths) {
@@ -112,9 +114,11 @@ void Window::start_imgui() {
   ImGui::GetIO().IniFilename = nullptr;  // the layout is in the view's own state
   ImGui_ImplGlfw_InitForOpenGL(window_, true);
   ImGui_ImplOpenGL3_Init("#version 330 core");
+  canvas_ = std::make_unique<Canvas>();
 }
 
 Window::~Window() {
+  canvas_.reset();
   ImGui_ImplOpenGL3_Shutdown();
   ImGui_ImplGlfw_Shutdown();
   ImGui::DestroyContext();
@@ -131,7 +135,10 @@ void Window::wait(double seconds) {
     glfwPollEvents();
 }
 
-void Window::renew_fonts() { ImGui_ImplOpenGL3_DestroyFontsTexture(); }  // the next frame makes it anew
+void Window::renew_fonts() {
+  ImGui_ImplOpenGL3_DestroyFontsTexture();  // the next frame makes it anew
+  canvas_->forget();
+}
 
 void Window::begin_frame() {
   ImGui_ImplOpenGL3_NewFrame();
@@ -139,30 +146,17 @@ void Window::begin_frame() {
   ImGui::NewFrame();
 }
 
-void Window::end_frame(const cv::Scalar& background, const std::function<void()>& before_show) {
+void Window::end_frame(const cv::Scalar& background, std::span<const ImTextureID> renewed,
+                       const std::function<void()>& before_show) {
   ImGui::Render();
-  int width = 0, height = 0;
-  glfwGetFramebufferSize(window_, &width, &height);
-  glViewport(0, 0, width, height);
-  glClearColor(static_cast<float>(background[0]), static_cast<float>(background[1]),
-               static_cast<float>(background[2]), 1);
-  glClear(GL_COLOR_BUFFER_BIT);
-  ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+  const bool drawn = canvas_->draw(*ImGui::GetDrawData(), background, renewed);
   before_show();
+  if (!std::exchange(events_.exposed, false) && !drawn) return;
+  canvas_->show();
   glfwSwapBuffers(window_);
 }
 
-cv::Mat3b Window::picture() const {
-  int width = 0, height = 0;
-  glfwGetFramebufferSize(window_, &width, &height);
-  cv::Mat3b pixels(height, width);
-  glPixelStorei(GL_PACK_ALIGNMENT, 1);
-  glReadBuffer(GL_BACK);
-  glReadPixels(0, 0, width, height, GL_BGR, GL_UNSIGNED_BYTE, pixels.data);
-  cv::Mat3b upright;
-  cv::flip(pixels, upright, 0);
-  return upright;
-}
+cv::Mat3b Window::picture() const { return canvas_->picture(); }
 
 bool Window::should_close() const { return glfwWindowShouldClose(window_) == GLFW_TRUE; }
 void Window::close() { glfwSetWindowShouldClose(window_, GLFW_TRUE); }

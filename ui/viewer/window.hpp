@@ -1,11 +1,14 @@
 #pragma once
 
 #include <functional>
+#include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
 #include <opencv2/core.hpp>
 
+#include "ui/canvas.hpp"
 #include "ui/shortcuts.hpp"
 
 struct GLFWwindow;
@@ -32,8 +35,10 @@ class Window {
   void wait(double seconds);
 
   void begin_frame();
-  /// Draws what ImGui was told; `before_show` is called when all is drawn, before it is shown.
-  void end_frame(const cv::Scalar& background, const std::function<void()>& before_show);
+  /// Draws what ImGui was told, as far as it differs from what is in the window; `before_show` is called when
+  /// all is drawn, before it is shown. `renewed`: textures whose pixels have changed since the last frame.
+  void end_frame(const cv::Scalar& background, std::span<const ImTextureID> renewed,
+                 const std::function<void()>& before_show);
 
   /// What is in the window, BGR; to be called from `before_show`.
   cv::Mat3b picture() const;
@@ -63,12 +68,13 @@ class Window {
   struct Events {
     std::vector<std::string> dropped;
     std::vector<KeyPress> keys;
-    bool any = true;
+    bool any = true, exposed = true;
   };
   void start_imgui();
 
   GLFWwindow* window_ = nullptr;
   Events events_;
+  std::unique_ptr<Canvas> canvas_;
 };
 
 }  // namespace saccade

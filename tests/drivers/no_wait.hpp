@@ -1,0 +1,10 @@
+#pragma once
+
+#include <chrono>
+
+namespace saccade {
+
+/// For FrameSource::read() of recordings, which never make a reader wait.
+inline constexpr std::chrono::milliseconds kNoWait{0};
+
+}  // namespace saccade
