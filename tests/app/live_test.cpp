@@ -157,10 +157,11 @@ TEST_F(LiveTest, ShortFramesAreRejectedAndNamed) {
 
 TEST_F(LiveTest, SettingsThatDoNothingAreTold) {
   plug_in("&ignores_settings=1");
-  const Outcome outcome = run_saccade({"run", "openni2", "--mirror", "--exposure", "20", "--frames", "2",
-                                       "--out", in("out"), "--dump", "none"});
+  const Outcome outcome = run_saccade({"run", "openni2", "--mirror", "--exposure", "20", "--white-balance",
+                                       "fixed", "--frames", "2", "--out", in("out"), "--dump", "none"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
-  for (const char* setting : {"mirroring", "registration", "automatic exposure", "exposure was set to 20"})
+  for (const char* setting : {"mirroring", "registration", "automatic exposure", "exposure was set to 20",
+                              "automatic white balance"})
     EXPECT_THAT(outcome.err, HasSubstr(setting));
   EXPECT_EQ(run_saccade({"run", "openni2", "--mode", "1x1@30", "--out", in("no")}).status, 2);
 }
