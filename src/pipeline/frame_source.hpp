@@ -50,12 +50,12 @@ struct SourceState {
     lost,       ///< the device was there and is gone, or is silent; the source tries again
   };
   Connection connection = Connection::streaming;
-  std::string text;  ///< one line for the user: what is waited for, or how the device was lost
+  std::string text{};  ///< one line for the user: what is waited for, or how the device was lost
   std::chrono::steady_clock::time_point since{};  ///< of this state
   std::int64_t losses = 0;                        ///< so far
   double away_s = 0;                              ///< time without the device so far, in all losses
   std::int64_t colourless = 0;  ///< frames so far for which the device, which has colour, gave none in time
-  std::vector<std::string> notes;  ///< what the device that is there does otherwise than asked; a line each
+  std::vector<std::string> notes{};  ///< what the device that is there does otherwise than asked; a line each
 };
 
 /// Where frames come from: a sensor, a recording, a folder, a synthetic scene.
