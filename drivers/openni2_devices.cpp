@@ -22,9 +22,7 @@ std::string driver_of(const DeviceIdentity& device) {
 void open_and_look(DeviceListing& listing) {
   openni::Device device;
   if (device.open(listing.identity.uri.c_str()) != openni::STATUS_OK) {
-    listing.problem = openni::OpenNI::getExtendedError();
-    while (!listing.problem.empty() && listing.problem.back() == '\n') listing.problem.pop_back();
-    if (listing.problem.empty()) listing.problem = "it cannot be opened";
+    listing.problem = "it cannot be opened: " + openni2_complaint();
     return;
   }
   std::array<char, 256> serial{};

@@ -3,6 +3,7 @@
 #include <sched.h>
 
 #include <algorithm>
+#include <sstream>
 
 #include <OpenNI.h>
 
@@ -24,14 +25,22 @@ std::string start_openni2() {
   on_openni2_thread([&why] {
     ::unshare(CLONE_FS);
     if (openni::OpenNI::initialize() == openni::STATUS_OK) return;
-    why = openni::OpenNI::getExtendedError();
+    why = openni2_complaint();
     openni::OpenNI::shutdown();
-    if (why.empty()) why = "it does not say why";
   });
   return why;
 }
 
 }  // namespace
+
+// Its lines end and begin with white space.
+std::string openni2_complaint() {
+  std::istringstream lines(openni::OpenNI::getExtendedError());
+  std::string complaint;
+  for (std::string line; std::getline(lines >> std::ws, line);)
+    complaint += (complaint.empty() ? "" : "; ") + line;
+  return complaint.empty() ? "it does not say why" : complaint;
+}
 
 // OpenNI2 calls it on the threads of its drivers; it only notes what it is told, since a driver may hold
 // locks.

@@ -16,6 +16,9 @@ struct DeviceIdentity {
   int usb_vendor = 0, usb_product = 0;  ///< 0 = not known
 };
 
+/// What OpenNI2 last complained of on this thread, in one line; never empty.
+std::string openni2_complaint();
+
 /// OpenNI2 as this process uses it: loaded with the first need, with its driver modules, and shut down at the
 /// end of the program. Any thread.
 class OpenNi2Runtime {

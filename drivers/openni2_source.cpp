@@ -21,6 +21,7 @@ constexpr milliseconds kFirstBackOff{100}, kLongestBackOff{2000};
 constexpr milliseconds kPoll{20};  // how soon an interrupt or a loss is noticed
 constexpr const char* kScheme = "openni2";
 constexpr const char* kHint = "plug in a sensor; saccade doctor looks for the reason";
+constexpr const char* kHintOfLoss = "plug it in again; without --no-reconnect it is waited for";
 
 std::string device_uri(const std::string& uri) {
   const std::string scheme = kScheme;
@@ -314,7 +315,7 @@ void OpenNi2Source::lose(const std::string& why) {
   on_openni2_thread([&] { device_.reset(); });
   back_off_ = kFirstBackOff;
   next_try_ = Clock::now();
-  if (!settings_.reconnect) throw failed("the sensor is lost: " + why, name, kHint);
+  if (!settings_.reconnect) throw failed("the sensor is lost: " + why, name, kHintOfLoss);
   const std::lock_guard lock(mutex_);
   values_ = {};
   state_.connection = Connection::lost;

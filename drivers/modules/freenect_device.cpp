@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <utility>
 
 #include "core/error.hpp"
@@ -200,21 +201,20 @@ void FreenectDevice::stop_video() {
 }
 
 void FreenectDevice::take_depth(const void* data, std::uint32_t ticks) {
-  const auto* values = static_cast<const std::uint16_t*>(data);
   depth_.create(kSize);
+  std::memcpy(depth_.data, data, depth_.total() * depth_.elemSize());  // it may lie at an odd address
   if (depth_is_raw_)
-    std::transform(values, values + depth_.total(), depth_.begin(),
+    std::transform(depth_.begin(), depth_.end(), depth_.begin(),
                    [this](std::uint16_t raw) { return table_[raw & 2047U]; });
-  else
-    std::copy(values, values + depth_.total(), depth_.begin());
   give(ONI_SENSOR_DEPTH, depth_, ++depth_frames_, ticks);
 }
 
 void FreenectDevice::take_video(const void* data, std::uint32_t ticks) {
   if (!video_) return;
   const bool colour = video_ == ONI_SENSOR_COLOR;
-  const cv::Mat image(colour ? kSize : kInfraredSize, colour ? CV_8UC3 : CV_16UC1, const_cast<void*>(data));
-  give(*video_, image, ++video_frames_, ticks);
+  image_.create(colour ? kSize : kInfraredSize, colour ? CV_8UC3 : CV_16UC1);
+  std::memcpy(image_.data, data, image_.total() * image_.elemSize());
+  give(*video_, image_, ++video_frames_, ticks);
 }
 
 void FreenectDevice::give(OniSensorType sensor, const cv::Mat& image, int index, std::uint32_t ticks) {

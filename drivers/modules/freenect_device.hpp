@@ -54,6 +54,7 @@ class FreenectDevice final : public ModuleDevice {
   int depth_frames_ = 0, video_frames_ = 0;
   KinectClock clock_;
   cv::Mat1w depth_;
+  cv::Mat image_;  // colour or infrared
 };
 
 }  // namespace saccade

@@ -75,12 +75,15 @@ class RecordRun {
       copy_frames(source, recorder);
     } catch (...) {
       const std::exception_ptr error = std::current_exception();
+      clear_line();
       try {
         recorder.finish();
+        const auto frames = recorder.counts().frames;
+        spdlog::warn("{}: closed with the {} frame{} that came before", arguments_.file, frames,
+                     frames == 1 ? "" : "s");
       } catch (const std::exception& second) {
         spdlog::debug("{}", second.what());  // the first error is the one that matters
       }
-      clear_line();
       std::rethrow_exception(error);
     }
     clear_line();

@@ -1,5 +1,7 @@
 #include "attention/attention.hpp"
 
+#include <algorithm>
+#include <cstdint>
 #include <stdexcept>
 
 #include "attention/proto.hpp"
@@ -16,7 +18,7 @@ void begin_attention(const cv::Mat1f& saliency, const cv::Mat1f& depth_mm, const
   attention.fixations.clear();
   attention.ended_early.clear();
   attention.masks.create(saliency.size());
-  attention.masks.setTo(0);
+  std::fill(attention.masks.begin(), attention.masks.end(), std::uint16_t{0});  // setTo() takes memory
 }
 
 Fixation fixation_at(const cv::Mat1f& saliency, const cv::Mat1f& depth_mm, const Intrinsics& camera, int row,

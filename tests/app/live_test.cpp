@@ -64,10 +64,10 @@ TEST_F(LiveTest, RunsSoManyFramesAsAskedAndTellsTheLatency) {
 }
 
 TEST_F(LiveTest, SlowProcessingDropsFramesInsteadOfFallingBehind) {
-  plug_in("&rate=120");
+  plug_in("&rate=500");
   const Outcome outcome =
-      run_saccade({"run", "openni2", "--frames", "15", "--out", in("out"), "--dump", "none", "--simd",
-                   "scalar", "--workers", "1", "--kernel", "25", "--json"});
+      run_saccade({"run", "openni2", "--mode", "80x60", "--frames", "15", "--out", in("out"), "--dump",
+                   "none", "--simd", "scalar", "--workers", "1", "--kernel", "9", "--json"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   const json summary = json::parse(outcome.out);
   EXPECT_GT(summary["dropped_by"]["newer_frame"], 0) << "the device is faster";
@@ -99,7 +99,7 @@ TEST_F(LiveTest, ASilentDeviceIsNoticed) {
       run_saccade({"run", "openni2", "--frames", "8", "--out", in("out"), "--dump", "none", "--json"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_THAT(outcome.err, HasSubstr("no depth for 2 s"));
-  EXPECT_EQ(json::parse(outcome.out)["device"]["losses"], 1);
+  EXPECT_GE(json::parse(outcome.out)["device"]["losses"], 1);
 }
 
 TEST_F(LiveTest, WithoutReconnectLosingTheDeviceIsAnError) {
@@ -157,10 +157,11 @@ TEST_F(LiveTest, ShortFramesAreRejectedAndNamed) {
 
 TEST_F(LiveTest, SettingsThatDoNothingAreTold) {
   plug_in("&ignores_settings=1");
-  const Outcome outcome = run_saccade({"run", "openni2", "--mirror", "--exposure", "20", "--frames", "2",
-                                       "--out", in("out"), "--dump", "none"});
+  const Outcome outcome = run_saccade({"run", "openni2", "--mirror", "--exposure", "20", "--white-balance",
+                                       "fixed", "--frames", "2", "--out", in("out"), "--dump", "none"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
-  for (const char* setting : {"mirroring", "registration", "automatic exposure", "exposure was set to 20"})
+  for (const char* setting : {"mirroring", "registration", "automatic exposure", "exposure was set to 20",
+                              "automatic white balance"})
     EXPECT_THAT(outcome.err, HasSubstr(setting));
   EXPECT_EQ(run_saccade({"run", "openni2", "--mode", "1x1@30", "--out", in("no")}).status, 2);
 }
@@ -223,6 +224,7 @@ TEST_F(LiveTest, RecordingEndsWithAWholeFileWhenTheDeviceIsGone) {
   plug_in("&loss_after=10");
   const Outcome outcome = run_saccade({"record", "openni2", in("a.oni"), "--no-reconnect"});
   EXPECT_EQ(outcome.status, 1);
+  EXPECT_THAT(outcome.err, HasSubstr("closed with the"));
   Recording recording{std::filesystem::path(in("a.oni"))};
   EXPECT_TRUE(is_sound(check_recording(recording)));
 }
