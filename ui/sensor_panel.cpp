@@ -30,6 +30,11 @@ void draw_headline(const SensorFacts& facts, std::chrono::steady_clock::time_poi
     wrapped_text(facts.source.error, Tone::bad);
   else if (!connection.text.empty())
     wrapped_text(connection.text, Tone::quiet);
+  for (const std::string& note : connection.notes) wrapped_text(note, Tone::warning);
+  if (connection.colourless > 0)
+    wrapped_text(fmt::format("{} frame{} without colour so far", connection.colourless,
+                             connection.colourless == 1 ? "" : "s"),
+                 Tone::warning);
   if (connection.losses > 0)
     wrapped_text(fmt::format("Lost {} so far, away for {}",
                              connection.losses == 1 ? "once" : fmt::format("{} times", connection.losses),

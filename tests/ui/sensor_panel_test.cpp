@@ -23,9 +23,10 @@ TEST(Headline, SaysHowTheSourceDoes) {
   EXPECT_EQ(headline(live(0), now).text, "Live, no frames");
 
   SourceFacts source = live(0);
-  source.connection = {.connection = Connection::waiting, .text = "no sensor is connected"};
+  source.connection.connection = Connection::waiting;
   EXPECT_EQ(headline(source, now).text, "Waiting for device");
-  source.connection = {.connection = Connection::lost, .text = "", .since = now - 3500ms};
+  source.connection.connection = Connection::lost;
+  source.connection.since = now - 3500ms;
   EXPECT_EQ(headline(source, now).text, "Lost 3 s ago, retrying");
   source.connection.since = now - 75s;
   EXPECT_EQ(headline(source, now).text, "Lost 1 min 15 s ago, retrying");
@@ -114,6 +115,8 @@ TEST_F(SensorPanelTest, LongTextsAreWrapped) {
   facts_.source = live(30);
   facts_.source.connection.text = std::string(30, 'w') + " " + std::string(30, 'w');
   facts_.source.connection.losses = 2;
+  facts_.source.connection.colourless = 3;
+  facts_.source.connection.notes = {"exposure was set to 40, but the device says 33 and does not change it"};
   facts_.recording.file = "a.oni";
   facts_.recording.error = "cannot write: No space left on device: a.oni (free some space on this disk)";
   facts_.folder = "/home/somebody/a folder/with a long name";
