@@ -72,8 +72,7 @@ OpenNi2Device::OpenNi2Device(const DeviceIdentity& identity, const SensorSetting
                              const SensorValues& wanted)
     : identity_(identity), streams_(std::make_unique<Streams>()) {
   if (streams_->device.open(identity_.uri.c_str()) != openni::STATUS_OK)
-    throw failed(fmt::format("the device cannot be opened: {}", openni2_complaint()),
-                 identity_.uri, kHint);
+    throw failed(fmt::format("the device cannot be opened: {}", openni2_complaint()), identity_.uri, kHint);
   if (streams_->depth.create(streams_->device, openni::SENSOR_DEPTH) != openni::STATUS_OK)
     throw failed("the device has no depth stream", identity_.uri, kHint);
   if (streams_->device.hasSensor(openni::SENSOR_COLOR))
@@ -85,8 +84,8 @@ OpenNi2Device::OpenNi2Device(const DeviceIdentity& identity, const SensorSetting
     streams_->colour.destroy();
   }
   if (streams_->depth.start() != openni::STATUS_OK)
-    throw failed(fmt::format("the depth stream does not start: {}", openni2_complaint()),
-                 identity_.uri, kHint);
+    throw failed(fmt::format("the depth stream does not start: {}", openni2_complaint()), identity_.uri,
+                 kHint);
   opening_notes_ = notes_.size();
   apply(wanted);
 }
