@@ -111,8 +111,9 @@ class RawPackets final : public CaptureVideo {
 
 class DecodedFrames final : public CaptureVideo {
  public:
-  DecodedFrames(cv::VideoCapture capture, cv::Size size, bool has_times)
-      : CaptureVideo(std::move(capture), size), has_times_(has_times) {}
+  // `clock`: of the same frames, for their times; those of a GStreamer pipeline run ahead of what was read.
+  DecodedFrames(cv::VideoCapture capture, cv::Size size, cv::VideoCapture clock = {})
+      : CaptureVideo(std::move(capture), size), clock_(std::move(clock)) {}
 
  private:
   void decode(cv::Mat1w& depth) override {
@@ -120,11 +121,13 @@ class DecodedFrames final : public CaptureVideo {
     buffer_.copyTo(depth);
   }
   std::int64_t time_of(std::int64_t index) override {
-    return has_times_ ? std::llround(1000 * capture_.get(cv::CAP_PROP_POS_MSEC))
-                      : CaptureVideo::time_of(index);
+    while (clocked_ <= index && clock_.grab()) ++clocked_;
+    return clocked_ > index ? std::llround(1000 * clock_.get(cv::CAP_PROP_POS_MSEC))
+                            : CaptureVideo::time_of(index);
   }
 
-  bool has_times_;
+  cv::VideoCapture clock_;
+  std::int64_t clocked_ = 0;  // frames of it that were read
 };
 
 std::unique_ptr<DepthVideo> open_ffv1(const fs::path& path, cv::Size size) {
@@ -142,7 +145,8 @@ std::unique_ptr<DepthVideo> open_ffv1(const fs::path& path, cv::Size size) {
         "this FFV1 video cannot be read as 16-bit gray", path.string(),
         "GStreamer does it with the packages gstreamer1.0-plugins-good and gstreamer1.0-libav, from "
         "Matroska");
-  return std::make_unique<DecodedFrames>(std::move(capture), size, true);
+  return std::make_unique<DecodedFrames>(std::move(capture), size,
+                                         cv::VideoCapture(path.string(), cv::CAP_FFMPEG));
 }
 
 }  // namespace
@@ -193,7 +197,7 @@ std::unique_ptr<DepthVideo> open_depth_images(const std::string& pattern) {
                      "e.g. depth_%04d.png for depth_0000.png, depth_0001.png, ..");
   if (first.type() != CV_16UC1)
     throw unreadable("the images are not 16-bit gray depth", pattern, "16-bit gray PNGs in mm are expected");
-  return std::make_unique<DecodedFrames>(cv::VideoCapture(pattern, cv::CAP_IMAGES), first.size(), false);
+  return std::make_unique<DecodedFrames>(cv::VideoCapture(pattern, cv::CAP_IMAGES), first.size());
 }
 
 }  // namespace saccade

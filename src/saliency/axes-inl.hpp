@@ -71,13 +71,17 @@ struct Diagonalisation {
 /// One Jacobi rotation: makes the element apq 0. arp and arq are the elements that p and q share with the
 /// third index.
 HWY_INLINE void rotate(V& app, V& aqq, V& apq, V& arp, V& arq, V (&axis_p)[3], V (&axis_q)[3]) {
-  const V tiny = set(1e-30f);
+  // cos(2a) = |d|/h and sin(2a) = 2apq/h with h^2 = d^2 + (2apq)^2 for the smaller of the two angles.
   const V difference = hn::Sub(aqq, app), twice = hn::Add(apq, apq);
-  const V square = hn::Max(hn::MulAdd(difference, difference, hn::Mul(twice, twice)), tiny);
-  const V root = hn::Mul(square, reciprocal_sqrt(square));
-  const V size = hn::Mul(twice, reciprocal(hn::Add(hn::Abs(difference), root)));
-  const V t = hn::Xor(size, hn::And(difference, hn::SignBit(kF)));  // the smaller root: |t| <= 1
-  const V c = reciprocal_sqrt(hn::MulAdd(t, t, set(1.0f))), s = hn::Mul(t, c);
+  const V square = hn::MulAdd(difference, difference, hn::Mul(twice, twice));
+  const M turns = hn::Gt(square, set(1e-30f));
+  const V inverse = reciprocal_sqrt(hn::IfThenElse(turns, square, set(1.0f)));
+  const V cos_2a = hn::IfThenElse(turns, hn::Mul(hn::Abs(difference), inverse), set(1.0f));
+  const V square_of_c = hn::MulAdd(cos_2a, set(0.5f), set(0.5f));
+  const V inverse_of_c = reciprocal_sqrt(square_of_c);
+  const V half_sine = hn::Mul(hn::Xor(apq, hn::And(difference, hn::SignBit(kF))), inverse);
+  const V c = hn::Mul(square_of_c, inverse_of_c), s = hn::Mul(half_sine, inverse_of_c);
+  const V t = hn::Mul(s, inverse_of_c);
   app = hn::NegMulAdd(t, apq, app);
   aqq = hn::MulAdd(t, apq, aqq);
   apq = zero();

@@ -62,29 +62,30 @@ HWY_INLINE V omega_1(const Vec3& n1, const Vec3& n2, const Vec3& l) {
                             hn::Mul(square, reciprocal_sqrt(hn::Max(square, tiny))));
 }
 
-/// Eqs. (3, 13) for one plane with unit normal `gamma`: its `front` (the paper's ') is where d > 0, `all` is
+/// Eqs. (3, 13) for one plane with unit normal `gamma`: `front` (the paper's ') is one side of it, `all` is
 /// the window without its centre.
 HWY_INLINE V plane_score(const Centres& centres, const Vec3& gamma, const HalfSums& front,
                          const HalfSums& all) {
   const HalfSums back = all - front;
   const V one = set(1.0f), half = set(0.5f);
-  M good = hn::And(hn::Gt(front.count, half), hn::Gt(back.count, half));
   const Vec3 p1 = mean_point(front, centres, reciprocal(hn::Max(front.count, one)));  // Eq. (5)
   const Vec3 p2 = mean_point(back, centres, reciprocal(hn::Max(back.count, one)));    // Eq. (6)
-  const Vec3 n1 = normalised(front.normal, good);                                     // Eq. (10)
-  const Vec3 n2 = normalised(back.normal, good);                                      // Eq. (11)
   const Vec3 difference = p1 - p2;
-  const Vec3 l = normalised(difference, good);  // Eq. (9)
+  M good = hn::And(hn::Gt(front.count, half), hn::Gt(back.count, half));
+  // Differs from Eq. (14), which as printed would also erase convex patches: the normals must lean away. That
+  // is seen before anything is normalised, and at most pixels it spares the rest for one plane or more.
+  good = hn::And(good, hn::And(hn::Gt(dot(front.normal, difference), zero()),
+                               hn::Lt(dot(back.normal, difference), zero())));
+  if (hn::AllFalse(kF, good)) return zero();
 
+  const Vec3 n1 = normalised(front.normal, good);  // Eq. (10)
+  const Vec3 n2 = normalised(back.normal, good);   // Eq. (11)
+  const Vec3 l = normalised(difference, good);     // Eq. (9)
   const V delta_D = hn::Abs(difference.z);         // Eq. (4)
-  const V delta_d = hn::Abs(dot(gamma, p1 + p2));  // Eq. (7), since gamma.p1 > 0 > gamma.p2
-  const V cos1 = dot(n1, l), cos2 = dot(n2, l);
-  const V difference_of_cosines = hn::Sub(cos1, cos2);
+  const V delta_d = hn::Abs(dot(gamma, p1 + p2));  // Eq. (7), since gamma.p1 and gamma.p2 have two signs
+  const V difference_of_cosines = hn::Sub(dot(n1, l), dot(n2, l));
   // Eq. (12): (1 - cos(a1 + a2))(1 - cos(a1 - a2)) is the same for angles of one plane.
   const V omega_2 = hn::Mul(difference_of_cosines, difference_of_cosines);
-  // Differs from Eq. (14), which as printed would also erase convex patches: the normals must lean away.
-  good = hn::And(good, hn::And(hn::Gt(cos1, zero()), hn::Lt(cos2, zero())));
-
   const V exponent = hn::Mul(hn::Add(delta_D, delta_d), centres.minus_inverse_lambda);
   const V distance = hn::Exp(kF, exponent);
   return hn::IfThenElseZero(good, hn::Mul(hn::Mul(distance, omega_1(n1, n2, l)), omega_2));

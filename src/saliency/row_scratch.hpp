@@ -75,9 +75,9 @@ struct RowStatistics {
 
 /// Memory of one worker; sized for the widest row and the largest window, and kept between frames.
 struct RowScratch {
-  static constexpr int kBandRows = 16;  ///< so many rows at most are given to Kernels::symmetry_rows at once
+  static constexpr int kPreparedRows = 4;  ///< so many rows are prepared before their points are looked at
 
-  RowScratch(int width, int reach)
+  explicit RowScratch(int width)
       : columns(width),
         column_depth(width),
         boxes(width),
@@ -85,9 +85,8 @@ struct RowScratch {
         double_doubling(width),
         halving(padded_rows<double, 4>(width)),
         upsampling(padded_rows<float, 2>(width)),
-        sweep_terms(hwy::AllocateAligned<float>(static_cast<std::size_t>(3 * (2 * reach + 1) * 16))),
         groups(hwy::AllocateAligned<int>(static_cast<std::size_t>(width + 16))) {
-    for (int r = 0; r < kBandRows; ++r) statistics.emplace_back(width);
+    for (int r = 0; r < kPreparedRows; ++r) statistics.emplace_back(width);
   }
 
   WindowSums columns;                      ///< sums of the window's rows in one column
@@ -95,11 +94,10 @@ struct RowScratch {
   WindowSums boxes;                        ///< sums of the whole window
   PaddedRow<std::int32_t> whole_doubling;  ///< for the sums of a row's neighbours
   PaddedRow<double> double_doubling;
-  std::vector<RowStatistics> statistics;           ///< of each row of a band
-  std::array<PaddedRow<double>, 4> halving;        ///< pyramid: depths and weights of even and of odd columns
-  std::array<PaddedRow<float>, 2> upsampling;      ///< master map
-  hwy::AlignedFreeUniquePtr<float[]> sweep_terms;  ///< the sweep: of each plane, a vector for each row
-  hwy::AlignedFreeUniquePtr<int[]> groups;         ///< first columns of the vectors that hold a point
+  std::vector<RowStatistics> statistics;       ///< of each prepared row
+  std::array<PaddedRow<double>, 4> halving;    ///< pyramid: depths and weights of even and of odd columns
+  std::array<PaddedRow<float>, 2> upsampling;  ///< master map
+  hwy::AlignedFreeUniquePtr<int[]> groups;     ///< first columns of the vectors that hold a point
 };
 
 }  // namespace saccade

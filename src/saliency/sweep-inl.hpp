@@ -65,37 +65,38 @@ struct ColumnPart {
 
 /// The three planes through a centre as the sweep needs them.
 struct SweepPlanes {
-  V z0;                  ///< the centre's depth
-  V along_ray[kPlanes];  ///< gamma.ray
-  V per_col[kPlanes];    ///< -gamma.x/fx
-  const float* terms;    ///< gamma.y/fy * dr: for each row of the window a vector for each plane
+  V z0;                ///< the centre's depth
+  V per_col[kPlanes];  ///< -gamma.x/fx / gamma.ray: what a column adds to where the plane cuts the ray
+  V per_row[kPlanes];  ///< -gamma.y/fy / gamma.ray: what a row adds
 
-  SweepPlanes(const Vec3* gamma, const Centres& centres, const Window& window, V depth, float* memory)
-      : z0(depth), terms(memory - window.first_row * kPlanes * kLanes) {
+  SweepPlanes(const Vec3* gamma, const Centres& centres, V depth) : z0(depth) {
     for (int i = 0; i < kPlanes; ++i) {
-      along_ray[i] = hn::MulAdd(gamma[i].x, centres.ray_x, hn::MulAdd(gamma[i].y, centres.ray_y, gamma[i].z));
-      per_col[i] = hn::Mul(gamma[i].x, set(-centres.inverse_fx));
-      const V per_row = hn::Mul(gamma[i].y, set(centres.inverse_fy));
-      float* term = memory + i * kLanes;
-      for (int dr = window.first_row; dr <= window.last_row; ++dr, term += kPlanes * kLanes)
-        hn::Store(hn::Mul(per_row, set(kNumbers.value[dr + kNumbers.kLargest])), kF, term);
+      const V along_ray =
+          hn::MulAdd(gamma[i].x, centres.ray_x, hn::MulAdd(gamma[i].y, centres.ray_y, gamma[i].z));
+      const V tiny = set(1e-12f);
+      const V factor = hn::Div(set(-1.0f), hn::IfThenElse(hn::Gt(hn::Abs(along_ray), tiny), along_ray, tiny));
+      per_col[i] = hn::Mul(hn::Mul(gamma[i].x, set(centres.inverse_fx)), factor);
+      per_row[i] = hn::Mul(hn::Mul(gamma[i].y, set(centres.inverse_fy)), factor);
     }
   }
 };
 
-/// Adds to `counted` the packed count and depth, and to z_rows and, if kSweepsOnce, to the normals of `sums`
-/// those points of a part of a column that lie in front of each plane; else their selections are stored.
+/// Of each plane, the sums over the points in front that grow with every point.
+struct RunningSums {
+  V z_rows[kPlanes], x[kPlanes], y[kPlanes], z[kPlanes];
+};
+
+/// Adds the points of a part of a column that lie in front of each plane: to `counted` their packed count and
+/// depth, and to z_rows and, if kSweepsOnce, to the normals of `sums`; else their selections are stored.
 HWY_INLINE void sweep_positions(const Points& points, const ColumnPart& part, const SweepPlanes& planes,
-                                V (&counted)[kPlanes], HalfSums* sums, Selection* selections) {
-  // Sums that change with every point are variables of their own, so that they stay in registers.
-  V threshold[kPlanes], z_rows[kPlanes], sum_x[kPlanes], sum_y[kPlanes], sum_z[kPlanes];
+                                V (&counted)[kPlanes], RunningSums& sums, Selection* selections) {
+  V per_row[kPlanes], at_col[kPlanes];
   for (int i = 0; i < kPlanes; ++i) {
-    threshold[i] = hn::Mul(planes.per_col[i], set(kNumbers.value[part.col + kNumbers.kLargest]));
-    z_rows[i] = sums[i].z_rows;
-    sum_x[i] = sums[i].normal.x, sum_y[i] = sums[i].normal.y, sum_z[i] = sums[i].normal.z;
+    at_col[i] = hn::Mul(planes.per_col[i], set(kNumbers.value[part.col + kNumbers.kLargest]));
+    per_row[i] = planes.per_row[i];
+    counted[i] = zero();
   }
   std::ptrdiff_t j = part.first_row * points.stride + part.col;
-  const float* term = planes.terms + part.first_row * kPlanes * kLanes;
   const float* row = kNumbers.value + kNumbers.kLargest + part.first_row;
   for (const float* const last = row + part.rows; row != last; ++row) {
     const V z = in_register(load(points.depth + j)), p = in_register(load(points.packed + j));
@@ -108,88 +109,106 @@ HWY_INLINE void sweep_positions(const Points& points, const ColumnPart& part, co
     }
     const V dr = set(*row), z_times_row = hn::Mul(z, dr);
     for (int i = 0; i < kPlanes; ++i) {
-      const V side = hn::MulAdd(planes.along_ray[i], q, hn::Load(kF, term + i * kLanes));
-      const Selection front = select(hn::Gt(side, threshold[i]));  // Eq. (2)
+      const Selection front = select(hn::Gt(q, hn::MulAdd(per_row[i], dr, at_col[i])));  // Eq. (2)
       counted[i] = add_where(front, p, counted[i]);
-      z_rows[i] = add_product_where(front, z, dr, z_times_row, z_rows[i]);
+      sums.z_rows[i] = add_product_where(front, z, dr, z_times_row, sums.z_rows[i]);
       if constexpr (kSweepsOnce) {
-        sum_x[i] = add_where(front, nx, sum_x[i]);
-        sum_y[i] = add_where(front, ny, sum_y[i]);
-        sum_z[i] = add_where(front, nz, sum_z[i]);
+        sums.x[i] = add_where(front, nx, sums.x[i]);
+        sums.y[i] = add_where(front, ny, sums.y[i]);
+        sums.z[i] = add_where(front, nz, sums.z[i]);
       } else {
         *selections++ = front;
       }
     }
     j += points.stride;
-    term += kPlanes * kLanes;
-  }
-  for (int i = 0; i < kPlanes; ++i) {
-    sums[i].z_rows = z_rows[i];
-    sums[i].normal = {sum_x[i], sum_y[i], sum_z[i]};
   }
 }
 
 /// Adds the normals of the selected points of a part of a column.
 HWY_INLINE void sweep_normals(const Points& points, const ColumnPart& part, const Selection* selections,
-                              HalfSums* sums) {
-  V sum_x[kPlanes], sum_y[kPlanes], sum_z[kPlanes];
-  for (int i = 0; i < kPlanes; ++i)
-    sum_x[i] = sums[i].normal.x, sum_y[i] = sums[i].normal.y, sum_z[i] = sums[i].normal.z;
+                              RunningSums& sums) {
   std::ptrdiff_t j = part.first_row * points.stride + part.col;
   for (int v = 0; v < part.rows; ++v, j += points.stride, selections += kPlanes) {
     Selection front[kPlanes];
     for (int i = 0; i < kPlanes; ++i) front[i] = in_register(selections[i]);
     const V nx = in_register(load(points.normal_x + j));
-    for (int i = 0; i < kPlanes; ++i) sum_x[i] = add_where(front[i], nx, sum_x[i]);
+    for (int i = 0; i < kPlanes; ++i) sums.x[i] = add_where(front[i], nx, sums.x[i]);
     const V ny = in_register(load(points.normal_y + j));
-    for (int i = 0; i < kPlanes; ++i) sum_y[i] = add_where(front[i], ny, sum_y[i]);
+    for (int i = 0; i < kPlanes; ++i) sums.y[i] = add_where(front[i], ny, sums.y[i]);
     const V nz = in_register(load(points.normal_z + j));
-    for (int i = 0; i < kPlanes; ++i) sum_z[i] = add_where(front[i], nz, sum_z[i]);
+    for (int i = 0; i < kPlanes; ++i) sums.z[i] = add_where(front[i], nz, sums.z[i]);
   }
-  for (int i = 0; i < kPlanes; ++i) sums[i].normal = {sum_x[i], sum_y[i], sum_z[i]};
 }
+
+/// What was counted in a few parts of columns, still packed: unpacking them together leaves the registers to
+/// the sweep.
+struct PackedParts {
+  static constexpr int kMost = 32;
+  V counted[kMost][kPlanes];
+  int cols[kMost];
+  int size = 0;
+
+  /// Adds count, z and z_cols, the two in units of the packing, to `sums`; packed_z0 is the centre's depth.
+  HWY_INLINE void unpack(const DepthPacking& packing, V packed_z0, HalfSums* sums) {
+    const V count_unit = set(packing.count_unit), inverse_unit = set(1 / packing.count_unit);
+    for (int i = 0; i < kPlanes; ++i) {
+      V count = sums[i].count, z = sums[i].z, z_cols = sums[i].z_cols;
+      for (int k = 0; k < size; ++k) {
+        const V part_count = hn::Floor(hn::Mul(counted[k][i], inverse_unit));
+        const V part_z = hn::NegMulAdd(part_count, count_unit, counted[k][i]);
+        count = hn::Add(count, part_count);
+        z = hn::Add(z, hn::NegMulAdd(part_count, packed_z0, part_z));
+        z_cols = hn::MulAdd(set(kNumbers.value[cols[k] + kNumbers.kLargest]), part_z, z_cols);
+      }
+      sums[i].count = count, sums[i].z = z, sums[i].z_cols = z_cols;
+    }
+    size = 0;
+  }
+};
 
 /// The sums over the points in front of the planes `gamma`, for the centres at `at` and following.
 ///
 /// A point is in front if d = gamma.(p_j - p) > 0. With p = z*ray, and divided by z_j > 0, this is
 ///   gamma.ray * (z_j - z)/z_j + gamma.x/fx * dc + gamma.y/fy * dr > 0,
-/// in which nothing cancels. 1/z_j is NaN where there is no point, so that the comparison fails.
+/// in which nothing cancels. It is divided by gamma.ray, so that one comparison with a linear function of row
+/// and column decides; where gamma.ray < 0 that exchanges the halves, which is the same to the score. 1/z_j
+/// is NaN where there is no point, so that the comparison fails.
 ///
-/// Differs from Eq. (2): a point exactly on the plane, d = 0, comes to the half behind, which is what is left
-/// of the window. With axes from measured normals that is chance; where it is not, on a frontal plane, all
-/// scores are 0.
+/// Differs from Eq. (2): a point exactly on the plane, d = 0, comes to the half that is left of the window
+/// once the one in front is taken away. With axes from measured normals that is chance; where it is not, on a
+/// frontal plane, all scores are 0.
 ///
 /// Columns are the outer loop: the sum of z of a column, times dc, gives the sum for x. Count and z share one
 /// float, which is unpacked after every few rows.
 HWY_INLINE void sum_in_front(const LevelPlanes& level, std::ptrdiff_t at, const Window& window,
-                             const Centres& centres, const Vec3* gamma, float* terms, HalfSums* sums) {
+                             const Centres& centres, const Vec3* gamma, HalfSums* sums) {
   const Points points(level, at);
-  const SweepPlanes planes(gamma, centres, window, load(points.depth), terms);
-  const V count_unit = set(level.packing.count_unit), inverse_unit = set(1 / level.packing.count_unit);
-  const V packed_z0 = hn::Sub(load(points.packed), count_unit);
-  for (int i = 0; i < kPlanes; ++i) sums[i] = {zero(), zero(), zero(), zero(), {zero(), zero(), zero()}};
-
+  const SweepPlanes planes(gamma, centres, load(points.depth));
+  const V packed_z0 = hn::Sub(load(points.packed), set(level.packing.count_unit));
+  RunningSums running;
+  for (int i = 0; i < kPlanes; ++i) {
+    sums[i].count = sums[i].z = sums[i].z_cols = zero();
+    running.z_rows[i] = running.x[i] = running.y[i] = running.z[i] = zero();
+  }
+  PackedParts parts;
   Selection selections[kSweepsOnce ? 1 : kPlanes * DepthPacking::kMostRows];
-  for (int dc = -window.reach; dc <= window.reach; ++dc) {
-    const V col = set(kNumbers.value[dc + kNumbers.kLargest]);
+  for (int dc = -window.reach; dc <= window.reach; ++dc)
     for (int begin = window.first_row; begin <= window.last_row; begin += level.packing.rows) {
       const ColumnPart part{begin, std::min(window.last_row + 1 - begin, level.packing.rows), dc};
-      V counted[kPlanes] = {zero(), zero(), zero()};
-      sweep_positions(points, part, planes, counted, sums, selections);
-      for (int i = 0; i < kPlanes; ++i) {
-        const V count = hn::Floor(hn::Mul(counted[i], inverse_unit));
-        const V z = hn::NegMulAdd(count, count_unit, counted[i]);
-        sums[i].count = hn::Add(sums[i].count, count);
-        sums[i].z = hn::Add(sums[i].z, hn::NegMulAdd(count, packed_z0, z));
-        sums[i].z_cols = hn::MulAdd(col, z, sums[i].z_cols);
-      }
-      if constexpr (!kSweepsOnce) sweep_normals(points, part, selections, sums);
+      V counted[kPlanes];
+      sweep_positions(points, part, planes, counted, running, selections);
+      if constexpr (!kSweepsOnce) sweep_normals(points, part, selections, running);
+      for (int i = 0; i < kPlanes; ++i) parts.counted[parts.size][i] = counted[i];
+      parts.cols[parts.size++] = dc;
+      if (parts.size == PackedParts::kMost) parts.unpack(level.packing, packed_z0, sums);
     }
-  }
+  parts.unpack(level.packing, packed_z0, sums);
   const V mm = set(1 / level.packing.units_per_mm);
   for (int i = 0; i < kPlanes; ++i) {
     sums[i].z = hn::Mul(sums[i].z, mm);
     sums[i].z_cols = hn::Mul(sums[i].z_cols, mm);
+    sums[i].z_rows = running.z_rows[i];
+    sums[i].normal = {running.x[i], running.y[i], running.z[i]};
   }
 }
 

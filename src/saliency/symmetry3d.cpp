@@ -14,17 +14,17 @@ namespace saccade {
 namespace {
 
 // Rows that one worker takes at a time. They are the same for any number of workers, and with them every bit.
-constexpr int kRowsOfPoints = 16, kRowsOfSymmetry = RowScratch::kBandRows;
+constexpr int kBandRows = 16;
 
 struct Band {
   int level, begin, end;  // rows
 };
 
-std::vector<Band> bands_of(const std::vector<LevelPlanes>& levels, int first_level, int rows) {
+std::vector<Band> bands_of(const std::vector<LevelPlanes>& levels, int first_level) {
   std::vector<Band> bands;
   for (int l = first_level; l < static_cast<int>(levels.size()); ++l)
-    for (int r = 0; r < levels[static_cast<std::size_t>(l)].height(); r += rows)
-      bands.push_back({l, r, std::min(r + rows, levels[static_cast<std::size_t>(l)].height())});
+    for (int r = 0; r < levels[static_cast<std::size_t>(l)].height(); r += kBandRows)
+      bands.push_back({l, r, std::min(r + kBandRows, levels[static_cast<std::size_t>(l)].height())});
   return bands;
 }
 
@@ -39,10 +39,9 @@ struct Symmetry3d::State {
   cv::Size size;
   std::vector<LevelPlanes> levels;  // 0..last_level
   std::vector<RowScratch> scratch;  // of each worker
-  std::vector<Band> point_bands;    // of levels first_level..last_level
-  std::vector<Band> symmetry_bands;
-  std::vector<DepthRange> ranges;  // of each band of level 0
-  std::vector<float> weights;      // of each level in the master map
+  std::vector<Band> bands;          // of levels first_level..last_level
+  std::vector<DepthRange> ranges;   // of each band of level 0
+  std::vector<float> weights;       // of each level in the master map
 
   State(const Symmetry3dParams& p, WorkerPool& workers, const std::string& simd)
       : params(p), pool(workers), kernels(choose_kernels(simd)) {}
@@ -65,10 +64,9 @@ void Symmetry3d::State::resize(cv::Size new_size) {
   levels.clear();
   scratch.clear();
   for (int l = 0; l <= params.last_level; ++l) levels.emplace_back(level_size(size, l), reach);
-  for (int w = 0; w < pool.workers(); ++w) scratch.emplace_back(size.width, reach);
-  point_bands = bands_of(levels, params.first_level, kRowsOfPoints);
-  symmetry_bands = bands_of(levels, params.first_level, kRowsOfSymmetry);
-  ranges.resize(static_cast<std::size_t>((size.height + kRowsOfPoints - 1) / kRowsOfPoints));
+  for (int w = 0; w < pool.workers(); ++w) scratch.emplace_back(size.width);
+  bands = bands_of(levels, params.first_level);
+  ranges.resize(static_cast<std::size_t>((size.height + kBandRows - 1) / kBandRows));
   weights.assign(levels.size(), 0);
 }
 
@@ -77,10 +75,9 @@ template <typename Job>
 void Symmetry3d::State::for_bands_of(int level, Job job) {
   const int height = levels[static_cast<std::size_t>(level)].height();
   const auto band = [&](int b, int worker) {
-    job(b * kRowsOfPoints, std::min((b + 1) * kRowsOfPoints, height),
-        scratch[static_cast<std::size_t>(worker)], b);
+    job(b * kBandRows, std::min((b + 1) * kBandRows, height), scratch[static_cast<std::size_t>(worker)], b);
   };
-  pool.for_each((height + kRowsOfPoints - 1) / kRowsOfPoints, std::ref(band));
+  pool.for_each((height + kBandRows - 1) / kBandRows, std::ref(band));
 }
 
 // SPEC 1.1 and 1.2
@@ -106,10 +103,10 @@ void Symmetry3d::State::load_pyramid(const cv::Mat1f& depth_mm, const Intrinsics
 // SPEC 1.3
 void Symmetry3d::State::find_points(bool normals_wanted) {
   const auto job = [&](int b, int) {
-    const Band& band = point_bands[static_cast<std::size_t>(b)];
+    const Band& band = bands[static_cast<std::size_t>(b)];
     kernels.normal_rows(levels[static_cast<std::size_t>(band.level)], band.begin, band.end);
   };
-  pool.for_each(static_cast<int>(point_bands.size()), std::ref(job));
+  pool.for_each(static_cast<int>(bands.size()), std::ref(job));
   if (normals_wanted && params.first_level > 0)
     for_bands_of(0,
                  [&](int begin, int end, RowScratch&, int) { kernels.normal_rows(levels[0], begin, end); });
@@ -118,11 +115,11 @@ void Symmetry3d::State::find_points(bool normals_wanted) {
 // Section 2 of SPEC. Large levels come first, so that the small ones fill the gaps at the end.
 void Symmetry3d::State::find_symmetry() {
   const auto job = [&](int b, int worker) {
-    const Band& band = symmetry_bands[static_cast<std::size_t>(b)];
+    const Band& band = bands[static_cast<std::size_t>(b)];
     kernels.symmetry_rows(levels[static_cast<std::size_t>(band.level)], params, band.begin, band.end,
                           scratch[static_cast<std::size_t>(worker)]);
   };
-  pool.for_each(static_cast<int>(symmetry_bands.size()), std::ref(job));
+  pool.for_each(static_cast<int>(bands.size()), std::ref(job));
 }
 
 // Eq. (15): each level's sum, from the coarsest down, takes the place of its map.

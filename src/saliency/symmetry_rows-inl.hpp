@@ -33,7 +33,7 @@ HWY_INLINE Centres centres_at(const LevelPlanes& level, const Symmetry3dParams& 
 
 /// Section 2 of SPEC at one vector of pixels: the best of the three planes, Eqs. (3, 13).
 HWY_INLINE V symmetry_at(const LevelPlanes& level, const Symmetry3dParams& params, const Window& window,
-                         int row, int col, RowStatistics& statistics, float* terms) {
+                         int row, int col, RowStatistics& statistics) {
   using S = RowStatistics;
   const auto get = [&](int value) HWY_ATTR { return hn::Load(kF, statistics.row(value) + col); };
   const Centres centres = centres_at(level, params, row, col);
@@ -48,7 +48,7 @@ HWY_INLINE V symmetry_at(const LevelPlanes& level, const Symmetry3dParams& param
     gamma[i] = {get(axis), get(axis + 1), get(axis + 2)};
   }
   HalfSums front[kPlanes];
-  sum_in_front(level, level.at(row, col), window, centres, gamma, terms, front);
+  sum_in_front(level, level.at(row, col), window, centres, gamma, front);
   V best = zero();
   for (int i = 0; i < kPlanes; ++i) best = hn::Max(best, plane_score(centres, gamma[i], front[i], all));
   const V usable = load(level.row(LevelPlanes::kPacked, row) + col);
@@ -77,26 +77,29 @@ HWY_INLINE void prepare_row(const LevelPlanes& level, int r, int reach, bool fir
   for (; g < groups; ++g) gaussian_image_axes<1>(columns + g, statistics);
 }
 
-/// Kernels::symmetry_rows. The rows of a band are prepared first; then it goes column by column, so that the
-/// points of a window stay in the nearest cache for the windows below.
+/// Kernels::symmetry_rows. A few rows are prepared at a time, as many as the caches hold the statistics of;
+/// then it goes column by column, so that the points of a window stay in the nearest cache for the windows
+/// below.
 void symmetry_rows(LevelPlanes& level, const Symmetry3dParams& params, int begin, int end,
                    RowScratch& scratch) {
   const DenormalsAreZero denormals;
   const int reach = params.kernel / 2;
-  for (int r = begin; r < end; ++r)
-    prepare_row(level, r, reach, r == begin, scratch.statistics[static_cast<std::size_t>(r - begin)],
-                scratch);
-  for (int c = 0; c < level.width(); c += kLanes)
-    for (int r = begin; r < end; ++r) {
-      V score = zero();
-      if (holds_a_point(level, r, c)) {
-        const Window window{std::max(-reach, -r), std::min(reach, level.height() - 1 - r), reach};
-        score =
-            symmetry_at(level, params, window, r, c, scratch.statistics[static_cast<std::size_t>(r - begin)],
-                        scratch.sweep_terms.get());
+  for (int top = begin; top < end; top += RowScratch::kPreparedRows) {
+    const int bottom = std::min(top + RowScratch::kPreparedRows, end);
+    const auto statistics = [&](int r) -> RowStatistics& {
+      return scratch.statistics[static_cast<std::size_t>(r - top)];
+    };
+    for (int r = top; r < bottom; ++r) prepare_row(level, r, reach, r == begin, statistics(r), scratch);
+    for (int c = 0; c < level.width(); c += kLanes)
+      for (int r = top; r < bottom; ++r) {
+        V score = zero();
+        if (holds_a_point(level, r, c)) {
+          const Window window{std::max(-reach, -r), std::min(reach, level.height() - 1 - r), reach};
+          score = symmetry_at(level, params, window, r, c, statistics(r));
+        }
+        hn::Store(score, kF, level.row(LevelPlanes::kScore, r) + c);
       }
-      hn::Store(score, kF, level.row(LevelPlanes::kScore, r) + c);
-    }
+  }
 }
 
 }  // namespace HWY_NAMESPACE

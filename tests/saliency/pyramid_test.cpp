@@ -13,7 +13,7 @@ namespace {
 cv::Mat1f halved(const cv::Mat1f& depth, const std::string& simd, int rows) {
   const Kernels& kernels = choose_kernels(simd);
   LevelPlanes full(depth.size(), 7), half(level_size(depth.size(), 1), 7);
-  RowScratch scratch(depth.cols, 7);
+  RowScratch scratch(depth.cols);
   kernels.load_rows(depth, full, 0, depth.rows);
   for (int r = 0; r < half.height(); r += rows)
     kernels.halve_rows(full, half, r, std::min(r + rows, half.height()), scratch);
