@@ -2,9 +2,7 @@
 
 #include <atomic>
 #include <condition_variable>
-#include <deque>
 #include <exception>
-#include <future>
 #include <mutex>
 #include <thread>
 #include <utility>
@@ -12,22 +10,29 @@
 namespace saccade {
 namespace {
 
+// Lives on the stack of the thread that waits for it.
+struct Job {
+  void (*call)(void* task);
+  void* task;
+  Job* next = nullptr;
+  bool done = false;
+  std::exception_ptr error{};
+};
+
 class Worker {
  public:
   Worker() {
     std::thread([this] { work(); }).detach();
   }
 
-  void run(const std::function<void()>& task) {
-    if (std::this_thread::get_id() == id_) return task();
-    std::packaged_task<void()> packaged(task);
-    std::future<void> done = packaged.get_future();
-    {
-      const std::lock_guard lock(mutex_);
-      tasks_.push_back(std::move(packaged));
-    }
-    changed_.notify_one();
-    done.get();
+  void run(Job job) {
+    if (std::this_thread::get_id() == id_) return job.call(job.task);
+    std::unique_lock lock(mutex_);
+    (last_ == nullptr ? first_ : last_->next) = &job;
+    last_ = &job;
+    came_.notify_one();
+    done_.wait(lock, [&job] { return job.done; });
+    if (job.error) std::rethrow_exception(job.error);
   }
 
  private:
@@ -35,26 +40,32 @@ class Worker {
     std::unique_lock lock(mutex_);
     id_ = std::this_thread::get_id();
     for (;;) {
-      changed_.wait(lock, [this] { return !tasks_.empty(); });
-      std::packaged_task<void()> task = std::move(tasks_.front());
-      tasks_.pop_front();
+      came_.wait(lock, [this] { return first_ != nullptr; });
+      Job& job = *std::exchange(first_, first_->next);
+      if (first_ == nullptr) last_ = nullptr;
       lock.unlock();
-      task();
+      try {
+        job.call(job.task);
+      } catch (...) {
+        job.error = std::current_exception();
+      }
       lock.lock();
+      job.done = true;  // after this it is gone as soon as the lock is free
+      done_.notify_all();
     }
   }
 
   std::mutex mutex_;
-  std::condition_variable changed_;
-  std::deque<std::packaged_task<void()>> tasks_;  // guarded by mutex_
+  std::condition_variable came_, done_;
+  Job *first_ = nullptr, *last_ = nullptr;  // the queue; guarded by mutex_, as is Job::done
   std::atomic<std::thread::id> id_;
 };
 
 }  // namespace
 
-void on_openni2_thread(const std::function<void()>& task) {
+void run_on_openni2_thread(void (*call)(void* task), void* task) {
   static Worker& worker = *new Worker;  // its thread outlives every destructor
-  worker.run(task);
+  worker.run({.call = call, .task = task});
 }
 
 }  // namespace saccade
