@@ -41,7 +41,7 @@ void Playback::step(std::int64_t frames) {
   {
     const std::lock_guard lock(mutex_);
     state_.paused = true;
-    wanted_ = wanted_.value_or(state_.position) + frames;
+    wanted_ = wanted_.value_or(going_to_.value_or(state_.position)) + frames;
     way_ = frames < 0 ? -1 : 1;
   }
   changed_.notify_all();

@@ -79,8 +79,9 @@ class Playback {
   std::condition_variable changed_;
   // All guarded by mutex_.
   PlaybackState state_;
-  std::optional<std::int64_t> wanted_;  // frame to go to
-  std::int64_t way_ = 1;                // where to look on if that frame cannot be used
+  std::optional<std::int64_t> wanted_;    // frame to go to
+  std::optional<std::int64_t> going_to_;  // the last of these that was taken up, until a frame is given
+  std::int64_t way_ = 1;                  // where to look on if that frame cannot be used
   bool again_ = false;
   bool taken_ = true;
   bool rebase_ = true;  // the frame given next is due at once

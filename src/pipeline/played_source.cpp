@@ -34,6 +34,7 @@ PlayedSource::PlayedSource(std::unique_ptr<FrameSource> source, std::shared_ptr<
   playback_->state_.position = -1;
   playback_->state_.at_end = false;
   playback_->wanted_.reset();
+  playback_->going_to_.reset();
   playback_->again_ = false;
   playback_->taken_ = playback_->rebase_ = true;
 }
@@ -114,6 +115,7 @@ void PlayedSource::go_to_wanted() {
   const std::int64_t wanted = std::clamp(*std::exchange(p.wanted_, std::nullopt), range_.start, last);
   const std::int64_t index = range_.start + (wanted - range_.start) / range_.every * range_.every;
   going_ = true;
+  p.going_to_ = index;
   p.rebase_ = true;
   if (has_ahead_ && ahead_.index == index) return;
   has_ahead_ = false;
@@ -141,6 +143,7 @@ ReadResult PlayedSource::fetch(Lock& lock) {
         at_next_ = false;
         if (next_ < range_.start) {  // nothing before it: stay where it was
           going_ = false;
+          playback_->going_to_.reset();
           next_ = std::max(playback_->state_.position, range_.start - range_.every) + range_.every;
         }
       }
@@ -167,6 +170,7 @@ ReadResult PlayedSource::turn_at_end() {
   } else {
     p.state_.paused = p.state_.at_end = true;
     going_ = false;
+    p.going_to_.reset();
   }
   return {ReadStatus::frame, ""};
 }
@@ -199,6 +203,7 @@ ReadResult PlayedSource::give(Lock& lock, Frame& frame) {
   p.rebase_ = false;
   p.state_.at_end = false;
   p.state_.position = last_.index;
+  p.going_to_.reset();
   copy_last(frame);
   if (const auto tap = p.tap_) {
     lock.unlock();

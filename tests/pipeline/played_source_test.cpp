@@ -1,5 +1,8 @@
 #include "pipeline/played_source.hpp"
 
+#include <functional>
+#include <utility>
+
 #include <gtest/gtest.h>
 
 #include "pipeline_parts.hpp"
@@ -24,7 +27,9 @@ class FakeClock : public PlayClock {
 class TimedSource : public CountingSource {
  public:
   using CountingSource::CountingSource;
+  std::function<void()> while_reading;  ///< called once
   ReadResult read(Frame& frame, milliseconds timeout) override {
+    if (const auto call = std::exchange(while_reading, nullptr)) call();
     const ReadResult result = CountingSource::read(frame, timeout);
     frame.timestamp_us = frame.index * 100'000 + (frame.index > 5 ? 10'000'000 : 0);
     return result;
@@ -34,8 +39,9 @@ class TimedSource : public CountingSource {
 class PlayedSourceTest : public ::testing::Test {
  protected:
   void open(std::int64_t frames, PlayRange range = {}, std::set<std::int64_t> rejected = {}) {
-    source_ = std::make_unique<PlayedSource>(std::make_unique<TimedSource>(frames, std::move(rejected)),
-                                             playback_, range, clock_);
+    auto recording = std::make_unique<TimedSource>(frames, std::move(rejected));
+    recording_ = recording.get();
+    source_ = std::make_unique<PlayedSource>(std::move(recording), playback_, range, clock_);
   }
 
   // The index of the next frame and when it came; -1 = none came.
@@ -52,6 +58,7 @@ class PlayedSourceTest : public ::testing::Test {
   const std::shared_ptr<FakeClock> clock_ = std::make_shared<FakeClock>();
   const std::shared_ptr<Playback> playback_ = std::make_shared<Playback>();
   std::unique_ptr<PlayedSource> source_;
+  TimedSource* recording_ = nullptr;  // what it plays
   Frame frame_;
 };
 
@@ -114,6 +121,16 @@ TEST_F(PlayedSourceTest, PausedItGivesOnlyWhatIsAskedFor) {
   EXPECT_EQ(next(), -1);
   playback_->play();
   EXPECT_EQ(next(2), (Indices{8, 9}));
+}
+
+TEST_F(PlayedSourceTest, AStepWhileAnotherIsReadGoesOnFromThere) {
+  open(10);
+  next(6);
+  playback_->step(-1);
+  recording_->while_reading = [&] { playback_->step(-1); };
+  EXPECT_EQ(next(), 3);
+  playback_->step(1);
+  EXPECT_EQ(next(), 4);
 }
 
 TEST_F(PlayedSourceTest, ShowsTheFrameAgainAsItWas) {
