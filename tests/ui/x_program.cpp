@@ -123,23 +123,36 @@ std::pair<int, int> XProgramTest::place_of(const std::string& place, double acro
           static_cast<int>(std::lround((top + bottom) / 2))};
 }
 
+void XProgramTest::hand_and_wait(const std::string& words) const {
+  using namespace std::chrono_literals;
+  // ImGui looks at the mouse once a frame, so that what is done and undone between two frames is not seen.
+  const std::int64_t frames = now()["frames"];
+  hand(words + " sleep 0.2");
+  const auto end = std::chrono::steady_clock::now() + 5s;  // it may not draw: the mouse may be there already
+  while (now()["frames"] < frames + 2 && std::chrono::steady_clock::now() < end)
+    std::this_thread::sleep_for(20ms);
+}
+
 void XProgramTest::click(const std::string& place, double across) const {
-  // What a person aims at may still be moving; and ImGui looks at the mouse once a frame.
+  // What a person aims at may still be moving.
   std::pair<int, int> aim{-1, -1};
   for (auto at = place_of(place, across); at != aim; at = place_of(place, across)) {
     aim = at;
-    hand("mousemove " + std::to_string(aim.first) + " " + std::to_string(aim.second) + " sleep 0.3");
+    hand_and_wait("mousemove " + std::to_string(aim.first) + " " + std::to_string(aim.second));
   }
-  hand("mousedown 1 sleep 0.3 mouseup 1");
+  hand_and_wait("mousedown 1");
+  hand_and_wait("mouseup 1");
 }
 
 void XProgramTest::drag(const std::string& place, double from, double to) const {
   const auto [x0, y] = place_of(place, from);
   const int x1 = place_of(place, to).first;
-  const std::string row = std::to_string(y);
-  hand("mousemove " + std::to_string(x0) + " " + row + " sleep 0.3 mousedown 1 sleep 0.3 mousemove " +
-       std::to_string((x0 + x1) / 2) + " " + row + " sleep 0.3 mousemove " + std::to_string(x1) + " " + row +
-       " sleep 0.3 mouseup 1");
+  const std::string row = " " + std::to_string(y);
+  hand_and_wait("mousemove " + std::to_string(x0) + row);
+  hand_and_wait("mousedown 1");
+  hand_and_wait("mousemove " + std::to_string((x0 + x1) / 2) + row);
+  hand_and_wait("mousemove " + std::to_string(x1) + row);
+  hand_and_wait("mouseup 1");
 }
 
 }  // namespace saccade

@@ -55,6 +55,7 @@ class XProgramTest : public FolderTest {
  private:
   pid_t spawn(const std::vector<std::string>& words, bool display) const;
   std::pair<int, int> place_of(const std::string& place, double across) const;
+  void hand_and_wait(const std::string& words) const;
 
   XServer server_;
   pid_t program_ = -1;
