@@ -22,8 +22,8 @@ HWY_INLINE void window_statistics(const LevelPlanes& level, int r, int reach, Wi
   using S = RowStatistics;
   const WideV whole_unit = hn::Set(kWide, 1.0 / (1 << normal_bits(reach)));
   const WideV inverse_units = hn::Set(kWide, 1.0 / static_cast<double>(level.packing.units_per_mm));
-  const WideV count_unit = hn::Set(kWide, static_cast<double>(level.packing.count_unit));
-  const float* packed = level.row(LevelPlanes::kPacked, r);
+  const WideV one = hn::Set(kWide, static_cast<double>(1 << level.packing.depth_bits));
+  const auto* packed = reinterpret_cast<const std::int32_t*>(level.row(LevelPlanes::kPacked, r));
   for (int c = 0; c < level.width(); c += kWideLanes) {
     const auto whole = [&](WindowSums::Whole i) HWY_ATTR {
       const std::int32_t* sums = boxes.whole[static_cast<std::size_t>(i)].data();
@@ -49,7 +49,7 @@ HWY_INLINE void window_statistics(const LevelPlanes& level, int r, int reach, Wi
       return hn::PromoteTo(kWide, hn::Load(kHalfF, level.row(plane, r) + c));
     };
     const WideV z_units = depth(WindowSums::kDepth);
-    const WideV z0 = hn::Sub(hn::PromoteTo(kWide, hn::Load(kHalfF, packed + c)), count_unit);
+    const WideV z0 = hn::Sub(hn::PromoteTo(kWide, hn::Load(kHalfWhole, packed + c)), one);
     put(S::kCount, hn::Sub(n, hn::Set(kWide, 1.0)));
     put(S::kZ, hn::Mul(hn::NegMulAdd(n, z0, z_units), inverse_units));
     put(S::kZRows, depth(WindowSums::kDepthRows));

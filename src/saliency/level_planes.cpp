@@ -1,6 +1,9 @@
 #include "saliency/level_planes.hpp"
 
 #include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
 #include <limits>
 
 namespace saccade {
@@ -10,17 +13,21 @@ constexpr int round_up(int value, int step) { return (value + step - 1) / step *
 
 }  // namespace
 
-DepthPacking DepthPacking::for_depths(float largest_mm, bool multiples_of_eighths) {
-  constexpr float kBits20 = 1 << 20, kBits21 = 1 << 21;
-  const auto fits = [&](int rows, float units_per_mm, float bits) {
-    return static_cast<float>(rows) * (largest_mm * units_per_mm + 1) < bits;  // and one for rounding
+DepthPacking DepthPacking::for_depths(float largest_mm, bool multiples_of_eighths, int rows) {
+  const auto bits = [](double largest) {
+    return static_cast<int>(std::bit_width(static_cast<std::uint64_t>(largest)));
   };
-  if (!multiples_of_eighths)
-    for (float units = 256; units > 8; units /= 2)
-      if (fits(4, units, kBits21)) return {units, kBits21, 4};
-  if (fits(kMostRows, 8, kBits20)) return {8, kBits20, kMostRows};
-  if (fits(7, 8, kBits21)) return {8, kBits21, 7};
-  return {8, kBits21, 4};  // 65535 mm still fit
+  DepthPacking packing;
+  const auto depth_bits = [&](int columns) {
+    return bits(columns * rows * (std::ceil(static_cast<double>(largest_mm) * packing.units_per_mm) + 1));
+  };
+  const auto fits = [&](int columns) { return depth_bits(columns) + bits(columns * rows) <= 32; };
+  packing.units_per_mm = multiples_of_eighths ? 8 : 256;
+  while (!fits(1)) packing.units_per_mm /= 2;
+  packing.columns = 1;
+  while (packing.columns < rows && fits(packing.columns + 1)) ++packing.columns;
+  packing.depth_bits = depth_bits(packing.columns);
+  return packing;
 }
 
 LevelPlanes::LevelPlanes(cv::Size size, int reach)

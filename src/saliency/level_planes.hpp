@@ -10,20 +10,19 @@
 
 namespace saccade {
 
-/// How a pixel's depth and the number one share one float, so that one addition counts and sums. Depths are
-/// summed in whole units. Both parts of a sum of `rows` pixels stay exact: count_unit exceeds the largest sum
-/// of depths, and the whole stays below 2^24.
+/// How a pixel's depth and the number one share 32 bits, so that one addition counts and sums: the depth, in
+/// whole units, in the lower `depth_bits`, and a one above them. The sum of `columns` columns of a window
+/// keeps both exact.
 struct DepthPacking {
-  static constexpr int kMostRows = 15;
-
   float units_per_mm = 8;
-  float count_unit = 0;  ///< what one pixel adds besides its depth
-  int rows = 0;          ///< so many pixels may be summed before they are unpacked
+  int depth_bits = 0;
+  int columns = 0;
 
-  /// For depths up to `largest_mm`, itself at most 65535. If all are multiples of 1/8 mm (as every level but
-  /// the first is, and that too with a usual sensor) nothing is rounded; else depths are rounded to units,
-  /// which are 1/8 to 1/256 mm, where they are summed and nowhere else.
-  static DepthPacking for_depths(float largest_mm, bool multiples_of_eighths);
+  /// For depths up to `largest_mm`, itself at most 65535, and windows of `rows` rows and columns. If all are
+  /// multiples of 1/8 mm (as every level but the first is, and that too with a usual sensor) nothing is
+  /// rounded; else depths are rounded to units of down to 1/256 mm where they are summed, and nowhere else.
+  /// Differs: beyond 16 m the largest windows have no room for eighths and sum in coarser units.
+  static DepthPacking for_depths(float largest_mm, bool multiples_of_eighths, int rows);
 };
 
 /// One pyramid level as structure of arrays. Around each image there are margins, which hold invalid pixels,
@@ -37,7 +36,7 @@ class LevelPlanes {
     kDepth,          ///< z in mm, 0 = no reading
     kInverse,        ///< 1/z, 0 where there is no reading
     kUsableInverse,  ///< 1/z of the operator's points, NaN where a pixel has no depth or no normal
-    kPacked,         ///< count and z of the operator's points (DepthPacking), 0 = none
+    kPacked,         ///< bits of an integer: count and z of the operator's points (DepthPacking), 0 = none
     kNormalX,        ///< unit normals, 0 = none
     kNormalY,
     kNormalZ,

@@ -25,6 +25,7 @@ using WideV = hn::Vec<Wide>;
 using HalfF = hn::Rebind<float, Wide>;  // as many floats as there are doubles in a vector
 using HalfWhole = hn::Rebind<std::int32_t, Wide>;
 using Whole = hn::Rebind<std::int32_t, F>;
+using W = hn::Vec<Whole>;
 
 constexpr F kF{};
 constexpr Wide kWide{};
@@ -40,6 +41,12 @@ HWY_INLINE V set(float x) { return hn::Set(kF, x); }
 HWY_INLINE V set(double x) { return hn::Set(kF, static_cast<float>(x)); }
 HWY_INLINE V zero() { return hn::Zero(kF); }
 HWY_INLINE V load(const float* p) { return hn::LoadU(kF, p); }
+
+/// The bits of v, which are those of a whole number without sign, moved down.
+HWY_INLINE W shift_right(W v, int bits) {
+  constexpr hn::RebindToUnsigned<Whole> tag;
+  return hn::BitCast(kWhole, hn::ShiftRightSame(hn::BitCast(tag, v), bits));
+}
 
 /// Three floats a pixel.
 struct Vec3 {
@@ -98,6 +105,12 @@ HWY_INLINE V in_register(V v) {
 #endif
   return v;
 }
+HWY_INLINE W in_register(W v) {
+#if HWY_ARCH_X86 && HWY_TARGET != HWY_SCALAR
+  asm("" : "+v"(v.raw));
+#endif
+  return v;
+}
 #if HWY_TARGET <= HWY_AVX3
 HWY_INLINE M in_register(M m) { return m; }
 #endif
@@ -109,6 +122,7 @@ HWY_INLINE Selection select(M m) { return m; }
 HWY_INLINE V add_where(Selection m, V v, V sum) {
   return V{_mm512_mask_add_ps(sum.raw, m.raw, sum.raw, v.raw)};
 }
+HWY_INLINE W add_where(M m, W v, W sum) { return W{_mm512_mask_add_epi32(sum.raw, m.raw, sum.raw, v.raw)}; }
 /// sum + a * b where m, else sum; ab = a * b may be used instead.
 HWY_INLINE V add_product_where(Selection m, V a, V b, V, V sum) {
   return V{_mm512_mask3_fmadd_ps(a.raw, b.raw, sum.raw, m.raw)};
@@ -117,6 +131,9 @@ HWY_INLINE V add_product_where(Selection m, V a, V b, V, V sum) {
 using Selection = V;
 HWY_INLINE Selection select(M m) { return hn::IfThenElseZero(m, hn::Set(kF, 1.0f)); }
 HWY_INLINE V add_where(Selection m, V v, V sum) { return hn::MulAdd(m, v, sum); }
+HWY_INLINE W add_where(M m, W v, W sum) {
+  return hn::Add(sum, hn::IfThenElseZero(hn::RebindMask(kWhole, m), v));
+}
 HWY_INLINE V add_product_where(Selection m, V, V, V ab, V sum) { return hn::MulAdd(m, ab, sum); }
 #endif
 

@@ -58,9 +58,9 @@ struct Points {
         stride(level.stride()) {}
 };
 
-/// A part of one column of a window: `rows` pixels from `first_row` and `col`, relative to the centre.
-struct ColumnPart {
-  int first_row, rows, col;
+/// A column of a window: its rows and where it is, relative to the centre.
+struct Column {
+  int first_row, last_row, col;
 };
 
 /// The three planes through a centre as the sweep needs them.
@@ -81,25 +81,27 @@ struct SweepPlanes {
   }
 };
 
-/// Of each plane, the sums over the points in front that grow with every point.
+/// Of each plane, the sums over the points in front that grow with every point. `counted` is packed, and is
+/// unpacked before it overflows.
 struct RunningSums {
+  W counted[kPlanes];
   V z_rows[kPlanes], x[kPlanes], y[kPlanes], z[kPlanes];
 };
 
-/// Adds the points of a part of a column that lie in front of each plane: to `counted` their packed count and
-/// depth, and to z_rows and, if kSweepsOnce, to the normals of `sums`; else their selections are stored.
-HWY_INLINE void sweep_positions(const Points& points, const ColumnPart& part, const SweepPlanes& planes,
-                                V (&counted)[kPlanes], RunningSums& sums, Selection* selections) {
+/// Adds the points of a column that lie in front of each plane: their packed count and depth, z_rows and, if
+/// kSweepsOnce, their normals; else their selections are stored.
+HWY_INLINE void sweep_positions(const Points& points, const Column& column, const SweepPlanes& planes,
+                                RunningSums& sums, Selection* selections) {
   V per_row[kPlanes], at_col[kPlanes];
   for (int i = 0; i < kPlanes; ++i) {
-    at_col[i] = hn::Mul(planes.per_col[i], set(kNumbers.value[part.col + kNumbers.kLargest]));
+    at_col[i] = hn::Mul(planes.per_col[i], set(kNumbers.value[column.col + kNumbers.kLargest]));
     per_row[i] = planes.per_row[i];
-    counted[i] = zero();
   }
-  std::ptrdiff_t j = part.first_row * points.stride + part.col;
-  const float* row = kNumbers.value + kNumbers.kLargest + part.first_row;
-  for (const float* const last = row + part.rows; row != last; ++row) {
-    const V z = in_register(load(points.depth + j)), p = in_register(load(points.packed + j));
+  std::ptrdiff_t j = column.first_row * points.stride + column.col;
+  const float* row = kNumbers.value + kNumbers.kLargest + column.first_row;
+  for (const float* const end = kNumbers.value + kNumbers.kLargest + column.last_row + 1; row != end; ++row) {
+    const V z = in_register(load(points.depth + j));
+    const W p = in_register(hn::BitCast(kWhole, load(points.packed + j)));
     const V q = hn::Mul(hn::Sub(z, planes.z0), load(points.inverse + j));
     V nx = zero(), ny = zero(), nz = zero();
     if constexpr (kSweepsOnce) {
@@ -109,8 +111,9 @@ HWY_INLINE void sweep_positions(const Points& points, const ColumnPart& part, co
     }
     const V dr = set(*row), z_times_row = hn::Mul(z, dr);
     for (int i = 0; i < kPlanes; ++i) {
-      const Selection front = select(hn::Gt(q, hn::MulAdd(per_row[i], dr, at_col[i])));  // Eq. (2)
-      counted[i] = add_where(front, p, counted[i]);
+      const M m = hn::Gt(q, hn::MulAdd(per_row[i], dr, at_col[i]));  // Eq. (2)
+      const Selection front = select(m);
+      sums.counted[i] = add_where(m, p, sums.counted[i]);
       sums.z_rows[i] = add_product_where(front, z, dr, z_times_row, sums.z_rows[i]);
       if constexpr (kSweepsOnce) {
         sums.x[i] = add_where(front, nx, sums.x[i]);
@@ -124,11 +127,11 @@ HWY_INLINE void sweep_positions(const Points& points, const ColumnPart& part, co
   }
 }
 
-/// Adds the normals of the selected points of a part of a column.
-HWY_INLINE void sweep_normals(const Points& points, const ColumnPart& part, const Selection* selections,
+/// Adds the normals of the selected points of a column.
+HWY_INLINE void sweep_normals(const Points& points, const Column& column, const Selection* selections,
                               RunningSums& sums) {
-  std::ptrdiff_t j = part.first_row * points.stride + part.col;
-  for (int v = 0; v < part.rows; ++v, j += points.stride, selections += kPlanes) {
+  std::ptrdiff_t j = column.first_row * points.stride + column.col;
+  for (int v = column.first_row; v <= column.last_row; ++v, j += points.stride, selections += kPlanes) {
     Selection front[kPlanes];
     for (int i = 0; i < kPlanes; ++i) front[i] = in_register(selections[i]);
     const V nx = in_register(load(points.normal_x + j));
@@ -139,32 +142,6 @@ HWY_INLINE void sweep_normals(const Points& points, const ColumnPart& part, cons
     for (int i = 0; i < kPlanes; ++i) sums.z[i] = add_where(front[i], nz, sums.z[i]);
   }
 }
-
-/// What was counted in a few parts of columns, still packed: unpacking them together leaves the registers to
-/// the sweep.
-struct PackedParts {
-  static constexpr int kMost = 32;
-  V counted[kMost][kPlanes];
-  int cols[kMost];
-  int size = 0;
-
-  /// Adds count, z and z_cols, the two in units of the packing, to `sums`; packed_z0 is the centre's depth.
-  HWY_INLINE void unpack(const DepthPacking& packing, V packed_z0, HalfSums* sums) {
-    const V count_unit = set(packing.count_unit), inverse_unit = set(1 / packing.count_unit);
-    for (int i = 0; i < kPlanes; ++i) {
-      V count = sums[i].count, z = sums[i].z, z_cols = sums[i].z_cols;
-      for (int k = 0; k < size; ++k) {
-        const V part_count = hn::Floor(hn::Mul(counted[k][i], inverse_unit));
-        const V part_z = hn::NegMulAdd(part_count, count_unit, counted[k][i]);
-        count = hn::Add(count, part_count);
-        z = hn::Add(z, hn::NegMulAdd(part_count, packed_z0, part_z));
-        z_cols = hn::MulAdd(set(kNumbers.value[cols[k] + kNumbers.kLargest]), part_z, z_cols);
-      }
-      sums[i].count = count, sums[i].z = z, sums[i].z_cols = z_cols;
-    }
-    size = 0;
-  }
-};
 
 /// The sums over the points in front of the planes `gamma`, for the centres at `at` and following.
 ///
@@ -178,32 +155,44 @@ struct PackedParts {
 /// once the one in front is taken away. With axes from measured normals that is chance; where it is not, on a
 /// frontal plane, all scores are 0.
 ///
-/// Columns are the outer loop: the sum of z of a column, times dc, gives the sum for x. Count and z share one
-/// float, which is unpacked after every few rows.
+/// Columns are the outer loop: with Z_i the sum of z of a run of columns up to the i-th, of n,
+/// sum(i * z) = n * Z_n - sum(Z_i), i = 1..n, so that z times the columns costs an addition a column.
 HWY_INLINE void sum_in_front(const LevelPlanes& level, std::ptrdiff_t at, const Window& window,
                              const Centres& centres, const Vec3* gamma, HalfSums* sums) {
   const Points points(level, at);
   const SweepPlanes planes(gamma, centres, load(points.depth));
-  const V packed_z0 = hn::Sub(load(points.packed), set(level.packing.count_unit));
+  const DepthPacking& packing = level.packing;
+  const W depth_mask = hn::Set(kWhole, (1 << packing.depth_bits) - 1);
+  const W z0 = hn::And(hn::BitCast(kWhole, load(points.packed)), depth_mask);
   RunningSums running;
   for (int i = 0; i < kPlanes; ++i) {
     sums[i].count = sums[i].z = sums[i].z_cols = zero();
     running.z_rows[i] = running.x[i] = running.y[i] = running.z[i] = zero();
   }
-  PackedParts parts;
-  Selection selections[kSweepsOnce ? 1 : kPlanes * DepthPacking::kMostRows];
-  for (int dc = -window.reach; dc <= window.reach; ++dc)
-    for (int begin = window.first_row; begin <= window.last_row; begin += level.packing.rows) {
-      const ColumnPart part{begin, std::min(window.last_row + 1 - begin, level.packing.rows), dc};
-      V counted[kPlanes];
-      sweep_positions(points, part, planes, counted, running, selections);
-      if constexpr (!kSweepsOnce) sweep_normals(points, part, selections, running);
-      for (int i = 0; i < kPlanes; ++i) parts.counted[parts.size][i] = counted[i];
-      parts.cols[parts.size++] = dc;
-      if (parts.size == PackedParts::kMost) parts.unpack(level.packing, packed_z0, sums);
+  Selection selections[kSweepsOnce ? 1 : kPlanes * (2 * kNumbers.kLargest - 1)];
+  for (int begin = -window.reach; begin <= window.reach; begin += packing.columns) {
+    const int end = std::min(begin + packing.columns, window.reach + 1);
+    W sum_of_sums[kPlanes];
+    for (int i = 0; i < kPlanes; ++i) running.counted[i] = sum_of_sums[i] = hn::Zero(kWhole);
+    for (int dc = begin; dc < end; ++dc) {
+      const Column column{window.first_row, window.last_row, dc};
+      sweep_positions(points, column, planes, running, selections);
+      if constexpr (!kSweepsOnce) sweep_normals(points, column, selections, running);
+      for (int i = 0; i < kPlanes; ++i)
+        sum_of_sums[i] = hn::Add(sum_of_sums[i], hn::And(running.counted[i], depth_mask));
     }
-  parts.unpack(level.packing, packed_z0, sums);
-  const V mm = set(1 / level.packing.units_per_mm);
+    for (int i = 0; i < kPlanes; ++i) {
+      const W z = hn::And(running.counted[i], depth_mask);
+      const W count = shift_right(running.counted[i], packing.depth_bits);
+      const W from_begin = hn::Sub(hn::Mul(z, hn::Set(kWhole, end - begin)), sum_of_sums[i]);
+      sums[i].count = hn::Add(sums[i].count, hn::ConvertTo(kF, count));
+      sums[i].z = hn::Add(sums[i].z, hn::ConvertTo(kF, hn::Sub(z, hn::Mul(count, z0))));
+      sums[i].z_cols = hn::Add(
+          sums[i].z_cols,
+          hn::MulAdd(hn::ConvertTo(kF, z), set(static_cast<float>(begin)), hn::ConvertTo(kF, from_begin)));
+    }
+  }
+  const V mm = set(1 / packing.units_per_mm);
   for (int i = 0; i < kPlanes; ++i) {
     sums[i].z = hn::Mul(sums[i].z, mm);
     sums[i].z_cols = hn::Mul(sums[i].z_cols, mm);

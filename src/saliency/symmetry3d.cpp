@@ -92,7 +92,8 @@ void Symmetry3d::State::load_pyramid(const cv::Mat1f& depth_mm, const Intrinsics
   }
   for (std::size_t l = 0; l < levels.size(); ++l) {
     levels[l].camera = camera.at_level(static_cast<int>(l));
-    levels[l].packing = DepthPacking::for_depths(all.largest_mm, l > 0 || all.multiples_of_eighths);
+    levels[l].packing = DepthPacking::for_depths(all.largest_mm, l > 0 || all.multiples_of_eighths,
+                                                 params.kernel / 2 * 2 + 1);
     if (l > 0)
       for_bands_of(static_cast<int>(l), [&](int begin, int end, RowScratch& memory, int) {
         kernels.halve_rows(levels[l - 1], levels[l], begin, end, memory);

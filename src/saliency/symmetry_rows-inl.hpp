@@ -31,6 +31,12 @@ HWY_INLINE Centres centres_at(const LevelPlanes& level, const Symmetry3dParams& 
   return centres;
 }
 
+/// Which pixels of a vector are points of the operator.
+HWY_INLINE M points_at(const LevelPlanes& level, int row, int col) {
+  const auto packed = hn::BitCast(kWhole, hn::Load(kF, level.row(LevelPlanes::kPacked, row) + col));
+  return hn::RebindMask(kF, hn::Gt(packed, hn::Zero(kWhole)));
+}
+
 /// Section 2 of SPEC at one vector of pixels: the best of the three planes, Eqs. (3, 13).
 HWY_INLINE V symmetry_at(const LevelPlanes& level, const Symmetry3dParams& params, const Window& window,
                          int row, int col, RowStatistics& statistics) {
@@ -51,13 +57,11 @@ HWY_INLINE V symmetry_at(const LevelPlanes& level, const Symmetry3dParams& param
   sum_in_front(level, level.at(row, col), window, centres, gamma, front);
   V best = zero();
   for (int i = 0; i < kPlanes; ++i) best = hn::Max(best, plane_score(centres, gamma[i], front[i], all));
-  const V usable = load(level.row(LevelPlanes::kPacked, row) + col);
-  return hn::IfThenElseZero(hn::Gt(usable, zero()), best);
+  return hn::IfThenElseZero(points_at(level, row, col), best);
 }
 
 HWY_INLINE bool holds_a_point(const LevelPlanes& level, int row, int col) {
-  const V packed = hn::Load(kF, level.row(LevelPlanes::kPacked, row) + col);
-  return !hn::AllFalse(kF, hn::Gt(packed, zero()));
+  return !hn::AllFalse(kF, points_at(level, row, col));
 }
 
 /// Everything of row r that is needed before single points are looked at.

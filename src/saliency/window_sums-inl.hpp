@@ -51,17 +51,17 @@ HWY_INLINE void accumulate_row(const LevelPlanes& level, int r, int dr, float si
     accumulate(sums[WindowSums::kXZ] + c, hn::Mul(ux, z), sign);
     accumulate(sums[WindowSums::kYZ] + c, hn::Mul(uy, z), sign);
   }
-  const float* packed = level.row(LevelPlanes::kPacked, r);
+  const auto* packed = reinterpret_cast<const std::int32_t*>(level.row(LevelPlanes::kPacked, r));
   const float* exact = level.row(LevelPlanes::kDepth, r);
   double* rounded_sum = columns.depth[WindowSums::kDepth].data();
   double* rows_sum = columns.depth[WindowSums::kDepthRows].data();
-  const WideV count_unit = hn::Set(kWide, static_cast<double>(level.packing.count_unit)),
+  const WideV one = hn::Set(kWide, static_cast<double>(1 << level.packing.depth_bits)),
               none = hn::Zero(kWide), factor = hn::Set(kWide, static_cast<double>(sign)),
               row_factor = hn::Set(kWide, static_cast<double>(sign) * dr);
   for (int c = 0; c < level.width(); c += kWideLanes) {
-    const WideV p = hn::PromoteTo(kWide, hn::Load(kHalfF, packed + c));
+    const WideV p = hn::PromoteTo(kWide, hn::Load(kHalfWhole, packed + c));
     const auto usable = hn::Gt(p, none);
-    const WideV z_units = hn::IfThenElseZero(usable, hn::Sub(p, count_unit));
+    const WideV z_units = hn::IfThenElseZero(usable, hn::Sub(p, one));
     const WideV z = hn::IfThenElseZero(usable, hn::PromoteTo(kWide, hn::Load(kHalfF, exact + c)));
     hn::Store(hn::MulAdd(factor, z_units, hn::Load(kWide, rounded_sum + c)), kWide, rounded_sum + c);
     hn::Store(hn::MulAdd(factor, z, hn::Load(kWide, depth + c)), kWide, depth + c);

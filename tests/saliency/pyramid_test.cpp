@@ -1,5 +1,7 @@
 // Each kernel of the pyramid to the bit against the reference.
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "saliency/kernels.hpp"
@@ -78,14 +80,22 @@ TEST(Pyramid, TellsWhatDepthsAreLike) {
 
 TEST(DepthPacking, ItsSumsStayExact) {
   for (const bool eighths : {true, false})
-    for (const float largest :
-         {1.0f, 1900.0f, 2100.0f, 8000.0f, 8737.0f, 8739.0f, 37000.0f, 38000.0f, 65535.0f}) {
-      const DepthPacking packing = DepthPacking::for_depths(largest, eighths);
-      const float units = largest * packing.units_per_mm, rows = static_cast<float>(packing.rows);
-      EXPECT_LT(rows * units, packing.count_unit) << largest;
-      EXPECT_LE(rows * (packing.count_unit + units), 16777216.0f) << largest;
-      EXPECT_GE(packing.units_per_mm, 8);
-    }
+    for (const int rows : {3, 15, 31, 127})
+      for (const float largest : {1.0f, 1900.0f, 4000.3f, 8191.0f, 8192.0f, 16300.0f, 38000.0f, 65535.0f}) {
+        const DepthPacking packing = DepthPacking::for_depths(largest, eighths, rows);
+        const double points = packing.columns * rows, units = std::ceil(largest * packing.units_per_mm);
+        EXPECT_GE(packing.columns, 1);
+        EXPECT_LE(packing.columns, rows);
+        EXPECT_LT(points * units, std::exp2(packing.depth_bits)) << largest;
+        EXPECT_LT(points * std::exp2(packing.depth_bits) + points * units, std::exp2(32)) << largest;
+        if (largest < 16384) {
+          EXPECT_GE(packing.units_per_mm, 8) << largest << ' ' << rows;
+        }
+      }
+}
+
+TEST(DepthPacking, HoldsTheWindowsOfSensorsWhole) {
+  EXPECT_EQ(DepthPacking::for_depths(8000, true, 15).columns, 15);
 }
 
 }  // namespace
