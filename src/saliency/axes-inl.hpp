@@ -6,6 +6,8 @@
 #define SACCADE_SALIENCY_AXES_INL
 #endif
 
+#include <limits>
+
 #include "saliency/level_planes.hpp"
 #include "saliency/row_scratch.hpp"
 #include "saliency/simd-inl.hpp"
@@ -17,45 +19,52 @@ namespace HWY_NAMESPACE {
 
 /// Of each pixel of row r: the covariance of the normals, and the sums that the halves are taken from. The
 /// covariance is a difference of nearly equal numbers where surfaces are flat; in double it is exact enough.
-HWY_INLINE void window_statistics(const LevelPlanes& level, int r, int reach, WindowSums& boxes,
+HWY_INLINE void window_statistics(const LevelPlanes& level, int r, int reach, RunningTotals& totals,
                                   RowStatistics& statistics) {
   using S = RowStatistics;
+  using C = ColumnSums;
   const WideV whole_unit = hn::Set(kWide, 1.0 / (1 << normal_bits(reach)));
   const WideV inverse_units = hn::Set(kWide, 1.0 / static_cast<double>(level.packing.units_per_mm));
-  const WideV one = hn::Set(kWide, static_cast<double>(1 << level.packing.depth_bits));
+  const auto depth_mask = hn::Set(kHalfWhole, (1 << level.packing.depth_bits) - 1);
   const auto* packed = reinterpret_cast<const std::int32_t*>(level.row(LevelPlanes::kPacked, r));
   for (int c = 0; c < level.width(); c += kWideLanes) {
-    const auto whole = [&](WindowSums::Whole i) HWY_ATTR {
-      const std::int32_t* sums = boxes.whole[static_cast<std::size_t>(i)].data();
-      return hn::Mul(hn::PromoteTo(kWide, hn::Load(kHalfWhole, sums + c)), whole_unit);
+    const auto window = [&](auto tag, auto* row) HWY_ATTR {
+      return hn::Sub(hn::LoadU(tag, row + c + reach), hn::LoadU(tag, row + c - reach - 1));
     };
-    const auto depth = [&](WindowSums::Double i) HWY_ATTR {
-      return hn::Load(kWide, boxes.depth[static_cast<std::size_t>(i)].data() + c);
+    const auto whole = [&](int i) HWY_ATTR {
+      return window(kHalfWhole, totals.whole[static_cast<std::size_t>(i)].data());
     };
+    const auto depth = [&](int i) HWY_ATTR {
+      return hn::Mul(window(kWide, totals.depth[static_cast<std::size_t>(i)].data()), inverse_units);
+    };
+    const auto normal = [&](C::Sum i)
+                            HWY_ATTR { return hn::Mul(hn::PromoteTo(kWide, whole(i)), whole_unit); };
     const auto put = [&](S::Value value, WideV v)
                          HWY_ATTR { hn::Store(hn::DemoteTo(kHalfF, v), kHalfF, statistics.row(value) + c); };
-    const WideV x = whole(WindowSums::kX), y = whole(WindowSums::kY), z = whole(WindowSums::kZ);
-    const WideV xx = whole(WindowSums::kXX), yy = whole(WindowSums::kYY), zz = whole(WindowSums::kZZ);
+    const WideV x = normal(C::kX), y = normal(C::kY), z = normal(C::kZ);
+    const WideV xx = normal(C::kXX), yy = normal(C::kYY), zz = normal(C::kZZ);
     const WideV n = hn::Round(hn::Add(xx, hn::Add(yy, zz)));  // normals have length 1
     // n^2 times the covariance: its scale does not matter to the axes.
     put(S::kCovXX, hn::NegMulAdd(x, x, hn::Mul(n, xx)));
     put(S::kCovYY, hn::NegMulAdd(y, y, hn::Mul(n, yy)));
     put(S::kCovZZ, hn::NegMulAdd(z, z, hn::Mul(n, zz)));
-    put(S::kCovXY, hn::NegMulAdd(x, y, hn::Mul(n, whole(WindowSums::kXY))));
-    put(S::kCovXZ, hn::NegMulAdd(x, z, hn::Mul(n, whole(WindowSums::kXZ))));
-    put(S::kCovYZ, hn::NegMulAdd(y, z, hn::Mul(n, whole(WindowSums::kYZ))));
+    put(S::kCovXY, hn::NegMulAdd(x, y, hn::Mul(n, normal(C::kXY))));
+    put(S::kCovXZ, hn::NegMulAdd(x, z, hn::Mul(n, normal(C::kXZ))));
+    put(S::kCovYZ, hn::NegMulAdd(y, z, hn::Mul(n, normal(C::kYZ))));
 
     const auto centre = [&](LevelPlanes::Plane plane) HWY_ATTR {
       return hn::PromoteTo(kWide, hn::Load(kHalfF, level.row(plane, r) + c));
     };
-    const WideV z_units = depth(WindowSums::kDepth);
-    const WideV z0 = hn::Sub(hn::PromoteTo(kWide, hn::Load(kHalfWhole, packed + c)), one);
+    // The sum of depths takes all 32 bits, which are to be read without sign.
+    const auto top = hn::Set(kHalfWhole, std::numeric_limits<std::int32_t>::min());
+    const WideV z_units =
+        hn::Sub(hn::PromoteTo(kWide, hn::Xor(whole(RunningTotals::kDepth), top)), hn::PromoteTo(kWide, top));
+    const WideV z0 = hn::PromoteTo(kWide, hn::And(hn::Load(kHalfWhole, packed + c), depth_mask));
     put(S::kCount, hn::Sub(n, hn::Set(kWide, 1.0)));
     put(S::kZ, hn::Mul(hn::NegMulAdd(n, z0, z_units), inverse_units));
-    put(S::kZRows, depth(WindowSums::kDepthRows));
-    const WideV cols =
-        hn::NegMulAdd(z_units, hn::Iota(kWide, static_cast<double>(c)), depth(WindowSums::kDepthCols));
-    put(S::kZCols, hn::Mul(cols, inverse_units));
+    put(S::kZRows, depth(RunningTotals::kDepthRows));
+    put(S::kZCols, hn::NegMulAdd(hn::Mul(z_units, inverse_units), hn::Iota(kWide, static_cast<double>(c)),
+                                 depth(RunningTotals::kDepthCols)));
     put(S::kNormalX, hn::Sub(x, centre(LevelPlanes::kNormalX)));
     put(S::kNormalY, hn::Sub(y, centre(LevelPlanes::kNormalY)));
     put(S::kNormalZ, hn::Sub(z, centre(LevelPlanes::kNormalZ)));

@@ -34,15 +34,25 @@ std::array<PaddedRow<T>, kRows> padded_rows(int width) {
   return rows;
 }
 
-/// Sums over the rows of a window, or over a whole window, for each column. Normals and their products are
-/// whole numbers of a small unit, so that their sums are exact in any order; depths are summed in double.
-struct WindowSums {
-  enum Whole { kX, kY, kZ, kXX, kYY, kZZ, kXY, kXZ, kYZ, kWholes };
-  enum Double { kDepth, kDepthRows, kDepthCols, kDoubles };
+/// Sums over the rows of a window, for each column. Normals, their products and depths are whole numbers of a
+/// small unit, so that their sums are exact in any order. DepthPacking leaves room for kDepthRows too.
+struct ColumnSums {
+  enum Sum { kX, kY, kZ, kXX, kYY, kZZ, kXY, kXZ, kYZ, kNormals, kPacked = kNormals, kDepthRows, kSums };
+  /// kPacked as in LevelPlanes; kDepthRows of depth times the rows from the centre.
+  std::array<PaddedRow<std::int32_t>, kSums> sums;
+
+  explicit ColumnSums(int width) : sums(padded_rows<std::int32_t, kSums>(width)) {}
+};
+
+/// Totals of ColumnSums from the first column to each. The difference of two is the sum of what lies between
+/// them, and right in 32 bits where that has room in them, whatever the totals.
+struct RunningTotals {
+  enum Whole { kDepth = ColumnSums::kNormals, kWholes };  ///< after the normals of ColumnSums
+  enum Double { kDepthRows, kDepthCols, kDoubles };
   std::array<PaddedRow<std::int32_t>, kWholes> whole;
   std::array<PaddedRow<double>, kDoubles> depth;
 
-  explicit WindowSums(int width)
+  explicit RunningTotals(int width)
       : whole(padded_rows<std::int32_t, kWholes>(width)), depth(padded_rows<double, kDoubles>(width)) {}
 };
 
@@ -79,21 +89,15 @@ struct RowScratch {
 
   explicit RowScratch(int width)
       : columns(width),
-        column_depth(width),
-        boxes(width),
-        whole_doubling(width),
-        double_doubling(width),
+        totals(width),
         halving(padded_rows<double, 4>(width)),
         upsampling(padded_rows<float, 2>(width)),
         groups(hwy::AllocateAligned<int>(static_cast<std::size_t>(width + 16))) {
     for (int r = 0; r < kPreparedRows; ++r) statistics.emplace_back(width);
   }
 
-  WindowSums columns;                      ///< sums of the window's rows in one column
-  PaddedRow<double> column_depth;          ///< of them, the sum of depths that kDepthRows belongs to
-  WindowSums boxes;                        ///< sums of the whole window
-  PaddedRow<std::int32_t> whole_doubling;  ///< for the sums of a row's neighbours
-  PaddedRow<double> double_doubling;
+  ColumnSums columns;                          ///< of the window's rows
+  RunningTotals totals;                        ///< of the columns
   std::vector<RowStatistics> statistics;       ///< of each prepared row
   std::array<PaddedRow<double>, 4> halving;    ///< pyramid: depths and weights of even and of odd columns
   std::array<PaddedRow<float>, 2> upsampling;  ///< master map

@@ -74,8 +74,8 @@ HWY_INLINE void prepare_row(const LevelPlanes& level, int r, int reach, bool fir
   for (int c = 0; c < level.width(); c += kLanes)
     if (holds_a_point(level, r, c)) columns[groups++] = c;
   if (groups == 0) return;
-  sum_boxes(level.width(), reach, scratch);
-  window_statistics(level, r, reach, scratch.boxes, statistics);
+  total_columns(level, reach, scratch);
+  window_statistics(level, r, reach, scratch.totals, statistics);
   int g = 0;
   for (; g + kTogether <= groups; g += kTogether) gaussian_image_axes<kTogether>(columns + g, statistics);
   for (; g < groups; ++g) gaussian_image_axes<1>(columns + g, statistics);

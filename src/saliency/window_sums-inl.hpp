@@ -23,109 +23,113 @@ inline int normal_bits(int reach) {
   return 31 - static_cast<int>(std::bit_width(points));
 }
 
-HWY_INLINE void accumulate(std::int32_t* sum, V value, float sign) {
-  const auto whole = hn::NearestInt(value);
-  const auto old = hn::Load(kWhole, sum);
-  hn::Store(sign > 0 ? hn::Add(old, whole) : hn::Sub(old, whole), kWhole, sum);
+/// The whole number nearest to each lane, which must fit.
+HWY_INLINE W nearest(V v) {
+#if HWY_TARGET <= HWY_AVX3
+  return W{_mm512_cvtps_epi32(v.raw)};
+#elif HWY_TARGET == HWY_AVX2
+  return W{_mm256_cvtps_epi32(v.raw)};
+#else
+  return hn::NearestInt(v);
+#endif
 }
 
-/// Adds (sign = 1) or takes away (-1) row r, which lies `dr` rows from the centre, to the sums of each
-/// column.
-HWY_INLINE void accumulate_row(const LevelPlanes& level, int r, int dr, float sign, float unit,
-                               WindowSums& columns, double* depth) {
-  const float* nx = level.row(LevelPlanes::kNormalX, r);
-  const float* ny = level.row(LevelPlanes::kNormalY, r);
-  const float* nz = level.row(LevelPlanes::kNormalZ, r);
-  std::int32_t* sums[WindowSums::kWholes];
-  for (int i = 0; i < WindowSums::kWholes; ++i) sums[i] = columns.whole[static_cast<std::size_t>(i)].data();
-  for (int c = 0; c < level.width(); c += kLanes) {
-    const V x = hn::Load(kF, nx + c), y = hn::Load(kF, ny + c), z = hn::Load(kF, nz + c);
-    const V ux = hn::Mul(x, set(unit)), uy = hn::Mul(y, set(unit)), uz = hn::Mul(z, set(unit));
-    accumulate(sums[WindowSums::kX] + c, ux, sign);
-    accumulate(sums[WindowSums::kY] + c, uy, sign);
-    accumulate(sums[WindowSums::kZ] + c, uz, sign);
-    accumulate(sums[WindowSums::kXX] + c, hn::Mul(ux, x), sign);
-    accumulate(sums[WindowSums::kYY] + c, hn::Mul(uy, y), sign);
-    accumulate(sums[WindowSums::kZZ] + c, hn::Mul(uz, z), sign);
-    accumulate(sums[WindowSums::kXY] + c, hn::Mul(ux, y), sign);
-    accumulate(sums[WindowSums::kXZ] + c, hn::Mul(ux, z), sign);
-    accumulate(sums[WindowSums::kYZ] + c, hn::Mul(uy, z), sign);
-  }
-  const auto* packed = reinterpret_cast<const std::int32_t*>(level.row(LevelPlanes::kPacked, r));
-  const float* exact = level.row(LevelPlanes::kDepth, r);
-  double* rounded_sum = columns.depth[WindowSums::kDepth].data();
-  double* rows_sum = columns.depth[WindowSums::kDepthRows].data();
-  const WideV one = hn::Set(kWide, static_cast<double>(1 << level.packing.depth_bits)),
-              none = hn::Zero(kWide), factor = hn::Set(kWide, static_cast<double>(sign)),
-              row_factor = hn::Set(kWide, static_cast<double>(sign) * dr);
-  for (int c = 0; c < level.width(); c += kWideLanes) {
-    const WideV p = hn::PromoteTo(kWide, hn::Load(kHalfWhole, packed + c));
-    const auto usable = hn::Gt(p, none);
-    const WideV z_units = hn::IfThenElseZero(usable, hn::Sub(p, one));
-    const WideV z = hn::IfThenElseZero(usable, hn::PromoteTo(kWide, hn::Load(kHalfF, exact + c)));
-    hn::Store(hn::MulAdd(factor, z_units, hn::Load(kWide, rounded_sum + c)), kWide, rounded_sum + c);
-    hn::Store(hn::MulAdd(factor, z, hn::Load(kWide, depth + c)), kWide, depth + c);
-    hn::Store(hn::MulAdd(row_factor, z, hn::Load(kWide, rows_sum + c)), kWide, rows_sum + c);
-  }
+/// Adds (sign = 1) or takes away (-1) the pixels at `at`, which lie `dr` rows from the centre, to the sums of
+/// their columns.
+HWY_INLINE void add_pixels(const LevelPlanes& level, std::ptrdiff_t at, int dr, int sign, V unit,
+                           W depth_mask, W (&sums)[ColumnSums::kSums]) {
+  using S = ColumnSums;
+  const auto get = [&](LevelPlanes::Plane plane) HWY_ATTR { return hn::Load(kF, level.plane(plane) + at); };
+  const auto add = [&](S::Sum sum, W value) HWY_ATTR {
+    sums[sum] = sign > 0 ? hn::Add(sums[sum], value) : hn::Sub(sums[sum], value);
+  };
+  const V x = get(LevelPlanes::kNormalX), y = get(LevelPlanes::kNormalY), z = get(LevelPlanes::kNormalZ);
+  const V ux = hn::Mul(x, unit), uy = hn::Mul(y, unit), uz = hn::Mul(z, unit);
+  add(S::kX, nearest(ux));
+  add(S::kY, nearest(uy));
+  add(S::kZ, nearest(uz));
+  add(S::kXX, nearest(hn::Mul(ux, x)));
+  add(S::kYY, nearest(hn::Mul(uy, y)));
+  add(S::kZZ, nearest(hn::Mul(uz, z)));
+  add(S::kXY, nearest(hn::Mul(ux, y)));
+  add(S::kXZ, nearest(hn::Mul(ux, z)));
+  add(S::kYZ, nearest(hn::Mul(uy, z)));
+  const W packed = hn::BitCast(kWhole, get(LevelPlanes::kPacked));
+  add(S::kPacked, packed);
+  add(S::kDepthRows, hn::Mul(hn::And(packed, depth_mask), hn::Set(kWhole, dr)));
 }
 
 /// The sums of each column of the window of row r; `first` if those of row r - 1 are not there.
 HWY_INLINE void slide_column_sums(const LevelPlanes& level, int r, int reach, bool first,
                                   RowScratch& scratch) {
-  const float unit = static_cast<float>(1 << normal_bits(reach));
-  WindowSums& columns = scratch.columns;
-  double* depth = scratch.column_depth.data();
-  if (first) {
-    const int width = level.width() + reach + kLanes;  // the margin too: the last level may have been wider
-    for (auto& row : columns.whole) std::fill(row.data(), row.data() + width, 0);
-    for (auto& row : columns.depth) std::fill(row.data(), row.data() + width, 0.0);
-    std::fill(depth, depth + width, 0.0);
-    for (int v = std::max(0, r - reach); v <= std::min(level.height() - 1, r + reach); ++v)
-      accumulate_row(level, v, v - r, 1, unit, columns, depth);
-    return;
-  }
-  // Each row is now one further up: its dr is one less.
-  double* rows_sum = columns.depth[WindowSums::kDepthRows].data();
-  for (int c = 0; c < level.width(); c += kWideLanes)
-    hn::Store(hn::Sub(hn::Load(kWide, rows_sum + c), hn::Load(kWide, depth + c)), kWide, rows_sum + c);
-  if (r - reach - 1 >= 0) accumulate_row(level, r - reach - 1, -reach - 1, -1, unit, columns, depth);
-  if (r + reach < level.height()) accumulate_row(level, r + reach, reach, 1, unit, columns, depth);
-}
-
-/// box[c] = sum of row[c - reach .. c + reach] for every column, by doubling: sums of 1, 2, 4, ...
-/// neighbours, of which those are added that make up the width. `row` holds 0 in its margins; `power` is
-/// scratch.
-template <typename T>
-HWY_INLINE void sum_neighbours(const T* row, T* power, T* box, int width, int reach) {
-  const hn::ScalableTag<T> tag;
-  const int lanes = static_cast<int>(hn::Lanes(tag)), size = 2 * reach + 1;
-  const int begin = -round_up(reach, lanes), end = width + reach;
-  for (int c = 0; c < width; c += lanes) hn::Store(hn::LoadU(tag, row + c - reach), tag, box + c);
-  const T* source = row;  // sums of `span` neighbours
-  int offset = 1 - reach;
-  for (int span = 1; 2 * span <= size; span *= 2, source = power) {
-    for (int c = begin; c < end; c += lanes)
-      hn::Store(hn::Add(hn::Load(tag, source + c), hn::LoadU(tag, source + c + span)), tag, power + c);
-    if ((size & (2 * span)) == 0) continue;
-    for (int c = 0; c < width; c += lanes)
-      hn::Store(hn::Add(hn::Load(tag, box + c), hn::LoadU(tag, power + c + offset)), tag, box + c);
-    offset += 2 * span;
+  const V unit = set(static_cast<float>(1 << normal_bits(reach)));
+  const W depth_mask = hn::Set(kWhole, (1 << level.packing.depth_bits) - 1);
+  for (int c = 0; c < level.width() + reach; c += kLanes) {
+    W sums[ColumnSums::kSums];
+    const auto add_row = [&](int row, int sign) HWY_ATTR {
+      if (row >= 0 && row < level.height())
+        add_pixels(level, level.at(row, c), row - r, sign, unit, depth_mask, sums);
+    };
+    if (first) {
+      for (W& sum : sums) sum = hn::Zero(kWhole);
+      for (int row = r - reach; row <= r + reach; ++row) add_row(row, 1);
+    } else {
+      for (std::size_t i = 0; i < ColumnSums::kSums; ++i)
+        sums[i] = hn::Load(kWhole, scratch.columns.sums[i].data() + c);
+      // Each row is now one further up.
+      sums[ColumnSums::kDepthRows] =
+          hn::Sub(sums[ColumnSums::kDepthRows], hn::And(sums[ColumnSums::kPacked], depth_mask));
+      add_row(r - reach - 1, -1);
+      add_row(r + reach, 1);
+    }
+    for (std::size_t i = 0; i < ColumnSums::kSums; ++i)
+      hn::Store(sums[i], kWhole, scratch.columns.sums[i].data() + c);
   }
 }
 
-/// From the sums of columns those of whole windows.
-HWY_INLINE void sum_boxes(int width, int reach, RowScratch& scratch) {
-  double* depth = scratch.columns.depth[WindowSums::kDepth].data();
-  double* cols_sum = scratch.columns.depth[WindowSums::kDepthCols].data();
-  for (int c = 0; c < width; c += kWideLanes)
-    hn::Store(hn::Mul(hn::Load(kWide, depth + c), hn::Iota(kWide, static_cast<double>(c))), kWide,
-              cols_sum + c);
-  for (std::size_t i = 0; i < WindowSums::kWholes; ++i)
-    sum_neighbours(scratch.columns.whole[i].data(), scratch.whole_doubling.data(),
-                   scratch.boxes.whole[i].data(), width, reach);
-  for (std::size_t i = 0; i < WindowSums::kDoubles; ++i)
-    sum_neighbours(scratch.columns.depth[i].data(), scratch.double_doubling.data(),
-                   scratch.boxes.depth[i].data(), width, reach);
+/// The sums of the lanes up to each, on top of `before`, which becomes their total.
+template <class Tag>
+HWY_INLINE hn::Vec<Tag> running_total(Tag tag, hn::Vec<Tag> v, hn::Vec<Tag>& before) {
+  constexpr hn::RebindToSigned<Tag> index_tag;
+  constexpr int lanes = HWY_LANES(hn::TFromD<Tag>);
+  const auto index = hn::Iota(index_tag, 0);
+  for (int step = 1; step < lanes; step *= 2) {
+    const auto has = hn::RebindMask(tag, hn::Gt(index, hn::Set(index_tag, step - 1)));
+    const auto from = hn::And(hn::Sub(index, hn::Set(index_tag, step)), hn::Set(index_tag, lanes - 1));
+    v = hn::Add(v, hn::IfThenElseZero(has, hn::TableLookupLanes(v, hn::IndicesFromVec(tag, from))));
+  }
+  const auto last = hn::IndicesFromVec(tag, hn::Set(index_tag, lanes - 1));
+  const auto total = hn::Add(v, before);
+  before = hn::Add(before, hn::TableLookupLanes(v, last));
+  return total;
+}
+
+/// From the sums of the columns their running totals, up to where the last window ends.
+HWY_INLINE void total_columns(const LevelPlanes& level, int reach, RowScratch& scratch) {
+  using S = ColumnSums;
+  using T = RunningTotals;
+  const W depth_mask = hn::Set(kWhole, (1 << level.packing.depth_bits) - 1);
+  const auto columns = [&](int sum) { return scratch.columns.sums[static_cast<std::size_t>(sum)].data(); };
+  W whole[T::kWholes];
+  for (W& total : whole) total = hn::Zero(kWhole);
+  WideV depth_rows = hn::Zero(kWide), depth_cols = hn::Zero(kWide);
+  for (int c = 0; c < level.width() + reach; c += kLanes) {
+    const auto put = [&](int i, W sum) HWY_ATTR {
+      hn::Store(running_total(kWhole, sum, whole[i]), kWhole,
+                scratch.totals.whole[static_cast<std::size_t>(i)].data() + c);
+    };
+    for (int i = 0; i < S::kNormals; ++i) put(i, hn::Load(kWhole, columns(i) + c));
+    put(T::kDepth, hn::And(hn::Load(kWhole, columns(S::kPacked) + c), depth_mask));
+  }
+  const auto half_mask = hn::Set(kHalfWhole, (1 << level.packing.depth_bits) - 1);
+  for (int c = 0; c < level.width() + reach; c += kWideLanes) {
+    const WideV rows = hn::PromoteTo(kWide, hn::Load(kHalfWhole, columns(S::kDepthRows) + c));
+    const WideV depth =
+        hn::PromoteTo(kWide, hn::And(hn::Load(kHalfWhole, columns(S::kPacked) + c), half_mask));
+    const WideV cols = hn::Mul(depth, hn::Iota(kWide, static_cast<double>(c)));
+    hn::Store(running_total(kWide, rows, depth_rows), kWide, scratch.totals.depth[T::kDepthRows].data() + c);
+    hn::Store(running_total(kWide, cols, depth_cols), kWide, scratch.totals.depth[T::kDepthCols].data() + c);
+  }
 }
 
 }  // namespace HWY_NAMESPACE
