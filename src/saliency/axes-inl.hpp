@@ -74,19 +74,17 @@ HWY_INLINE void window_statistics(const LevelPlanes& level, int r, int reach, Ru
 /// A symmetric matrix on its way to diagonal form, and the product of the rotations so far.
 struct Diagonalisation {
   V xx, yy, zz, xy, xz, yz;
-  V axes[3][3];  ///< [axis][component]
+  V axes[3][2];  ///< [axis][x, y]; z is known from these
 };
 
 /// One Jacobi rotation: makes the element apq 0. arp and arq are the elements that p and q share with the
 /// third index.
-HWY_INLINE void rotate(V& app, V& aqq, V& apq, V& arp, V& arq, V (&axis_p)[3], V (&axis_q)[3]) {
+HWY_INLINE void rotate(V& app, V& aqq, V& apq, V& arp, V& arq, V (&axis_p)[2], V (&axis_q)[2]) {
   // cos(2a) = |d|/h and sin(2a) = 2apq/h with h^2 = d^2 + (2apq)^2 for the smaller of the two angles.
   const V difference = hn::Sub(aqq, app), twice = hn::Add(apq, apq);
-  const V square = hn::MulAdd(difference, difference, hn::Mul(twice, twice));
-  const M turns = hn::Gt(square, set(1e-30f));
-  const V inverse = reciprocal_sqrt(hn::IfThenElse(turns, square, set(1.0f)));
-  const V cos_2a = hn::IfThenElse(turns, hn::Mul(hn::Abs(difference), inverse), set(1.0f));
-  const V square_of_c = hn::MulAdd(cos_2a, set(0.5f), set(0.5f));
+  const V magnitude = hn::Max(hn::Abs(difference), set(1e-15f));  // no turn where all is 0
+  const V inverse = reciprocal_sqrt(hn::MulAdd(magnitude, magnitude, hn::Mul(twice, twice)));
+  const V square_of_c = hn::MulAdd(hn::Mul(magnitude, inverse), set(0.5f), set(0.5f));
   const V inverse_of_c = reciprocal_sqrt(square_of_c);
   const V half_sine = hn::Mul(hn::Xor(apq, hn::And(difference, hn::SignBit(kF))), inverse);
   const V c = hn::Mul(square_of_c, inverse_of_c), s = hn::Mul(half_sine, inverse_of_c);
@@ -97,43 +95,51 @@ HWY_INLINE void rotate(V& app, V& aqq, V& apq, V& arp, V& arq, V (&axis_p)[3], V
   const V rp = arp;
   arp = hn::NegMulAdd(s, arq, hn::Mul(c, rp));
   arq = hn::MulAdd(s, rp, hn::Mul(c, arq));
-  for (int i = 0; i < 3; ++i) {
+  for (int i = 0; i < 2; ++i) {
     const V p = axis_p[i];
     axis_p[i] = hn::NegMulAdd(s, axis_q[i], hn::Mul(c, p));
     axis_q[i] = hn::MulAdd(s, p, hn::Mul(c, axis_q[i]));
   }
 }
 
-/// Eigenvectors of the covariance at `kCount` groups of pixels, by cyclic Jacobi rotations. Several groups go
-/// together because each rotation waits for the one before.
-template <int kGroups>
-HWY_INLINE void gaussian_image_axes(const int* columns, RowStatistics& statistics) {
+/// Eigenvectors of the covariance at the `count` vectors of pixels that begin at `columns`, by cyclic Jacobi
+/// rotations. Several vectors go together because each rotation waits for the one before; `columns` is
+/// filled up with its last to a whole number of them.
+HWY_INLINE void gaussian_image_axes(int* columns, int count, RowStatistics& statistics) {
   using S = RowStatistics;
-  constexpr int kSweeps = 3;
-  Diagonalisation m[kGroups];
-  for (int g = 0; g < kGroups; ++g) {
-    const auto get = [&](S::Value value)
-                         HWY_ATTR { return hn::Load(kF, statistics.row(value) + columns[g]); };
-    const V n = hn::Add(get(S::kCount), set(1.0f));
-    const V scale = reciprocal(hn::Max(hn::Mul(n, n), set(1.0f)));
-    m[g].xx = hn::Mul(get(S::kCovXX), scale);
-    m[g].yy = hn::Mul(get(S::kCovYY), scale);
-    m[g].zz = hn::Mul(get(S::kCovZZ), scale);
-    m[g].xy = hn::Mul(get(S::kCovXY), scale);
-    m[g].xz = hn::Mul(get(S::kCovXZ), scale);
-    m[g].yz = hn::Mul(get(S::kCovYZ), scale);
-    for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j) m[g].axes[i][j] = set(i == j ? 1.0f : 0.0f);
+  constexpr int kTogether = 4, kSweeps = 3;
+  const auto row = [&](int value, int column) { return statistics.row(value) + column; };
+  for (; count % kTogether != 0; ++count) columns[count] = columns[count - 1];
+  for (const int* const end = columns + count; columns != end; columns += kTogether) {
+    Diagonalisation m[kTogether];
+    for (int g = 0; g < kTogether; ++g) {
+      const auto get = [&](S::Value value) HWY_ATTR { return hn::Load(kF, row(value, columns[g])); };
+      const V n = hn::Add(get(S::kCount), set(1.0f));
+      const V scale = reciprocal(hn::Max(hn::Mul(n, n), set(1.0f)));
+      m[g].xx = hn::Mul(get(S::kCovXX), scale);
+      m[g].yy = hn::Mul(get(S::kCovYY), scale);
+      m[g].zz = hn::Mul(get(S::kCovZZ), scale);
+      m[g].xy = hn::Mul(get(S::kCovXY), scale);
+      m[g].xz = hn::Mul(get(S::kCovXZ), scale);
+      m[g].yz = hn::Mul(get(S::kCovYZ), scale);
+      for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 2; ++j) m[g].axes[i][j] = set(i == j ? 1.0f : 0.0f);
+    }
+    for (int sweep = 0; sweep < kSweeps; ++sweep) {
+      for (auto& a : m) rotate(a.xx, a.yy, a.xy, a.xz, a.yz, a.axes[0], a.axes[1]);
+      for (auto& a : m) rotate(a.xx, a.zz, a.xz, a.xy, a.yz, a.axes[0], a.axes[2]);
+      for (auto& a : m) rotate(a.yy, a.zz, a.yz, a.xy, a.xz, a.axes[1], a.axes[2]);
+    }
+    for (int g = 0; g < kTogether; ++g)
+      for (int i = 0; i < 3; ++i) {
+        const auto put = [&](int component, V v)
+                             HWY_ATTR { hn::Store(v, kF, row(S::kAxis0 + 3 * i + component, columns[g])); };
+        const V(&next)[2] = m[g].axes[(i + 1) % 3], (&last)[2] = m[g].axes[(i + 2) % 3];
+        put(0, m[g].axes[i][0]);
+        put(1, m[g].axes[i][1]);
+        put(2, hn::NegMulAdd(next[1], last[0], hn::Mul(next[0], last[1])));  // of next x last
+      }
   }
-  for (int sweep = 0; sweep < kSweeps; ++sweep) {
-    for (auto& a : m) rotate(a.xx, a.yy, a.xy, a.xz, a.yz, a.axes[0], a.axes[1]);
-    for (auto& a : m) rotate(a.xx, a.zz, a.xz, a.xy, a.yz, a.axes[0], a.axes[2]);
-    for (auto& a : m) rotate(a.yy, a.zz, a.yz, a.xy, a.xz, a.axes[1], a.axes[2]);
-  }
-  for (int g = 0; g < kGroups; ++g)
-    for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j)
-        hn::Store(m[g].axes[i][j], kF, statistics.row(S::kAxis0 + 3 * i + j) + columns[g]);
 }
 
 }  // namespace HWY_NAMESPACE

@@ -67,7 +67,6 @@ HWY_INLINE bool holds_a_point(const LevelPlanes& level, int row, int col) {
 /// Everything of row r that is needed before single points are looked at.
 HWY_INLINE void prepare_row(const LevelPlanes& level, int r, int reach, bool first, RowStatistics& statistics,
                             RowScratch& scratch) {
-  constexpr int kTogether = 3;
   slide_column_sums(level, r, reach, first, scratch);
   int* columns = scratch.groups.get();
   int groups = 0;
@@ -76,9 +75,7 @@ HWY_INLINE void prepare_row(const LevelPlanes& level, int r, int reach, bool fir
   if (groups == 0) return;
   total_columns(level, reach, scratch);
   window_statistics(level, r, reach, scratch.totals, statistics);
-  int g = 0;
-  for (; g + kTogether <= groups; g += kTogether) gaussian_image_axes<kTogether>(columns + g, statistics);
-  for (; g < groups; ++g) gaussian_image_axes<1>(columns + g, statistics);
+  gaussian_image_axes(columns, groups, statistics);
 }
 
 /// Kernels::symmetry_rows. A few rows are prepared at a time, as many as the caches hold the statistics of;
