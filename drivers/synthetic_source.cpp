@@ -15,6 +15,7 @@
 
 #include "core/error.hpp"
 #include "scene/random.hpp"
+#include "scene/strips.hpp"
 
 namespace saccade {
 namespace {
@@ -61,13 +62,15 @@ struct Key {
 
 using Spec = SyntheticSpec;
 
-constexpr std::array<Key, 9> kKeys = {{
+constexpr std::array<Key, 10> kKeys = {{
     {"seed", "a whole number, 0..9007199254740992",
      [](string_view v, Spec& s) { return read_number<std::uint64_t>(v, 0, std::uint64_t{1} << 53, s.seed); }},
     {"noise", "none or kinect",
      [](string_view v, Spec& s) {
        return read_choice(v, "none", Spec::Noise::none, "kinect", Spec::Noise::kinect, s.noise);
      }},
+    {"missing", "a share of the pixels, 0..0.9",
+     [](string_view v, Spec& s) { return read_number<double>(v, 0, 0.9, s.missing); }},
     {"frames", "a whole number, 1..1000000",
      [](string_view v, Spec& s) { return read_number<std::int64_t>(v, 1, 1'000'000, s.frames); }},
     {"scenes", "a whole number, 1..1000000",
@@ -188,8 +191,13 @@ ReadResult SyntheticSource::read(Frame& frame, std::chrono::milliseconds) {
   give(view_.normals, frame.truth.normals);
   if (spec_.noise == SyntheticSpec::Noise::kinect)
     kinect_.sense(scene::mix(scene::mix(spec_.seed, 2), static_cast<std::uint64_t>(index)), frame.depth_mm);
+  else if (spec_.missing > 0)
+    view_.depth_mm.copyTo(frame.depth_mm);
   else
     give(view_.depth_mm, frame.depth_mm);
+  if (spec_.missing > 0)
+    scene::remove_strips(scene::mix(spec_.seed + static_cast<std::uint64_t>(scene_number_), 3), spec_.missing,
+                         frame.depth_mm);
   return {ReadStatus::frame, {}};
 }
 

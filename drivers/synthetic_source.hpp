@@ -19,6 +19,7 @@ struct SyntheticSpec {
   std::string scene;                  ///< cone, cube, cylinder, sphere, table, room
   std::uint64_t seed = 0;             ///< seed=0..2^53: placement, colours and noise
   Noise noise = Noise::none;          ///< noise=none (exact depth, fractions of mm) | kinect (whole mm)
+  double missing = 0;                 ///< missing=0..0.9: share without a reading, at least; upright strips
   std::int64_t frames = 90;           ///< frames=1..1000000
   std::int64_t scenes = 1;            ///< scenes=1..1000000: frame k shows the scene of seed + k mod scenes
   cv::Size size{640, 480};            ///< size=WxH, 1x1..8192x8192
@@ -35,7 +36,8 @@ SyntheticSpec parse_synthetic(const std::string& uri);
 /// A ray-cast scene as a source of frames, with exact labels and normals; these stay exact where the depth
 /// is noisy. The intrinsics are the camera's own: fx = fy = 525 at a width of 640, principal point in the
 /// middle. Frame k depends on the specification and k alone, in whatever order frames are read.
-/// A still camera renders a scene once while it stays in view; noise is drawn for every frame.
+/// A still camera renders a scene once while it stays in view; noise is drawn for every frame,
+/// the missing strips for every scene.
 class SyntheticSource : public FrameSource {
  public:
   /// Throws as parse_synthetic().

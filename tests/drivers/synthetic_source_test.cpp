@@ -38,6 +38,7 @@ TEST(SyntheticSpec, DefaultsAreAStillExactScene) {
   EXPECT_EQ(spec.scene, "cone");
   EXPECT_EQ(spec.seed, 0u);
   EXPECT_EQ(spec.noise, SyntheticSpec::Noise::none);
+  EXPECT_EQ(spec.missing, 0);
   EXPECT_EQ(spec.frames, 90);
   EXPECT_EQ(spec.size, cv::Size(640, 480));
   EXPECT_EQ(spec.camera, SyntheticSpec::Camera::still);
@@ -48,11 +49,13 @@ TEST(SyntheticSpec, DefaultsAreAStillExactScene) {
 
 TEST(SyntheticSpec, ReadsEveryKey) {
   const SyntheticSpec spec = parse_synthetic(
-      "synthetic:table?seed=9007199254740992&noise=kinect&frames=1000000&size=8192x1&camera=orbit&rate=0.5&"
+      "synthetic:table?seed=9007199254740992&noise=kinect&missing=0.9&frames=1000000&size=8192x1&camera="
+      "orbit&rate=0.5&"
       "objects=20&distance=812.5");
   EXPECT_EQ(spec.scene, "table");
   EXPECT_EQ(spec.seed, 9007199254740992u);
   EXPECT_EQ(spec.noise, SyntheticSpec::Noise::kinect);
+  EXPECT_EQ(spec.missing, 0.9);
   EXPECT_EQ(spec.frames, 1'000'000);
   EXPECT_EQ(spec.size, cv::Size(8192, 1));
   EXPECT_EQ(spec.camera, SyntheticSpec::Camera::orbit);
@@ -69,7 +72,7 @@ TEST(SyntheticSpec, NamesWhatIsWrongAndWhatIsKnown) {
       {"synthetic:", "unknown scene ''", "cone, cube, cylinder, sphere, table, room"},
       {"synthetic:kitchen?seed=1", "unknown scene 'kitchen'", "cone, cube, cylinder, sphere, table, room"},
       {"synthetic:table?sed=1", "unknown key 'sed'",
-       "seed, noise, frames, scenes, size, camera, rate, objects, distance"},
+       "seed, noise, missing, frames, scenes, size, camera, rate, objects, distance"},
       {"synthetic:table?", "unknown key ''", "known keys"},
       {"synthetic:table?seed=1&", "unknown key ''", "known keys"},
       {"synthetic:table?seed=1&seed=1", "'seed' is given twice", "once"},
@@ -78,6 +81,7 @@ TEST(SyntheticSpec, NamesWhatIsWrongAndWhatIsKnown) {
       {"synthetic:table?seed=1.5", "'1.5'", "0.."},
       {"synthetic:table?seed=99999999999999999999", "'99999999999999999999'", "0.."},
       {"synthetic:table?noise=much", "'much'", "none or kinect"},
+      {"synthetic:table?missing=0.91", "'0.91'", "0..0.9"},
       {"synthetic:table?frames=0", "'0'", "1..1000000"},
       {"synthetic:table?frames=1000001", "'1000001'", "1..1000000"},
       {"synthetic:table?scenes=0", "'0'", "1..1000000"},
@@ -192,6 +196,29 @@ TEST(SyntheticSource, NoiseTouchesDepthAloneAndGroundTruthStaysExact) {
   EXPECT_LT(missing, 4000);
 }
 
+TEST(SyntheticSource, MissingStripsLeaveTheRestAsItIs) {
+  for (const std::string uri :
+       {"synthetic:room?seed=2&size=160x120", "synthetic:room?seed=2&size=160x120&noise=kinect"}) {
+    SCOPED_TRACE(uri);
+    const Frame whole = frame_of(uri, 1), frame = frame_of(uri + "&missing=0.3", 1);
+    const cv::Mat kept = frame.depth_mm > 0;
+    EXPECT_EQ(cv::norm(whole.depth_mm, frame.depth_mm, cv::NORM_INF, kept), 0);
+    const int missing = 160 * 120 - cv::countNonZero(kept);
+    EXPECT_GE(missing, 160 * 120 * 3 / 10);
+    EXPECT_LE(missing, 160 * 120 * 3 / 10 + 2 * 12);  // a strip more at most
+    EXPECT_EQ(cv::norm(whole.truth.labels, frame.truth.labels, cv::NORM_INF), 0);
+  }
+}
+
+TEST(SyntheticSource, MissingStripsBelongToTheScene) {
+  const std::string uri = "synthetic:table?seed=5&missing=0.2&size=160x120";
+  expect_same_pixels(frame_of(uri, 0), frame_of(uri, 7));
+  expect_same_pixels(frame_of(uri + "&scenes=2", 1),
+                     frame_of("synthetic:table?seed=6&missing=0.2&size=160x120", 0));
+  const cv::Mat moved = (frame_of(uri, 0).depth_mm > 0) != (frame_of(uri + "&scenes=2", 1).depth_mm > 0);
+  EXPECT_GT(cv::countNonZero(moved), 1000);
+}
+
 TEST(SyntheticSource, FramesReuseTheirMemory) {
   SyntheticSource source("synthetic:cone?size=64x48&noise=kinect&camera=orbit");
   Frame frame;
@@ -208,7 +235,7 @@ TEST(SyntheticSource, FramesReuseTheirMemory) {
 TEST(SyntheticSource, TinyAndOddSizesAreFilledToo) {
   for (const std::string size : {"1x1", "3x2", "17x301"}) {
     SCOPED_TRACE(size);
-    const Frame frame = frame_of("synthetic:room?noise=kinect&size=" + size, 1);
+    const Frame frame = frame_of("synthetic:room?noise=kinect&missing=0.5&size=" + size, 1);
     EXPECT_EQ(frame.depth_mm.total(), frame.colour.total());
   }
 }

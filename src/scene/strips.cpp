@@ -1,0 +1,21 @@
+#include "scene/strips.hpp"
+
+#include <algorithm>
+
+#include "scene/random.hpp"
+
+namespace saccade::scene {
+
+void remove_strips(std::uint64_t key, double share, cv::Mat1f& depth_mm) {
+  const cv::Size strip(std::max(1, depth_mm.cols / 80), std::max(1, depth_mm.rows / 10));
+  const int pixels = static_cast<int>(depth_mm.total());
+  Random random(key);
+  for (int missing = pixels - cv::countNonZero(depth_mm); missing < share * pixels;) {
+    const cv::Point corner{random.whole(0, depth_mm.cols - 1), random.whole(0, depth_mm.rows - 1)};
+    cv::Mat1f taken = depth_mm(cv::Rect(corner, strip) & cv::Rect({0, 0}, depth_mm.size()));
+    missing += cv::countNonZero(taken);
+    taken = 0;
+  }
+}
+
+}  // namespace saccade::scene
