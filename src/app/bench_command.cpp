@@ -39,14 +39,16 @@ const std::array<SensorSize, 4> kSensorSizes = {
 
 struct Measurement {
   SensorSize sensor;
+  double valid = 0;  ///< share of pixels with depth
   StageStatistics stages;
   DurationHistogram frame;  ///< from depth to fixations
   double reference_ms = 0;  ///< the same map by the reference; 0 = not measured
 };
 
+/// A table as a Kinect sees it, with as much of it in shadow as is usual indoors.
 Frame table_frame(cv::Size size) {
-  SyntheticSource source(
-      fmt::format("synthetic:table?seed=1&noise=kinect&frames=1&size={}x{}", size.width, size.height));
+  SyntheticSource source(fmt::format("synthetic:table?seed=1&noise=kinect&missing=0.2&frames=1&size={}x{}",
+                                     size.width, size.height));
   Frame frame;
   source.read(frame, std::chrono::milliseconds(0));
   return frame;
@@ -59,6 +61,7 @@ Measurement measure(const SensorSize& sensor, const Settings& settings, double s
   const auto processor = make_processor(settings);
   Result result;
   result.frame = table_frame(sensor.size);
+  measurement.valid = static_cast<double>(cv::countNonZero(result.frame.depth_mm)) / sensor.size.area();
   processor->process(result);  // allocates
   const auto begin = Clock::now();
   while (measurement.frame.count() < kLeastFrames || milliseconds_since(begin) < 1000 * seconds) {
@@ -86,6 +89,7 @@ bool sustains(const Measurement& m, int rate_hz) { return m.frame.percentile_ms(
 nlohmann::ordered_json as_json(const Measurement& m) {
   nlohmann::ordered_json json = {{"width", m.sensor.size.width},
                                  {"height", m.sensor.size.height},
+                                 {"valid", m.valid},
                                  {"frames", m.frame.count()},
                                  {"map_ms", map_ms(m)},
                                  {"attention_ms", m.stages[Stage::attention].percentile_ms(0.5)},
@@ -100,8 +104,8 @@ void print(const Measurement& m) {
   std::string modes;
   for (const int rate : m.sensor.rates_hz)
     modes += fmt::format("{}{} Hz {}", modes.empty() ? "" : ", ", rate, sustains(m, rate) ? "yes" : "no");
-  fmt::print("{:>4}x{:<4}  {:8.2f}  {:9.2f}  {:8.2f}  {:8.1f}   {}\n", m.sensor.size.width,
-             m.sensor.size.height, map_ms(m), m.stages[Stage::attention].percentile_ms(0.5),
+  fmt::print("{:>4}x{:<4}  {:7.0f}  {:8.2f}  {:9.2f}  {:8.2f}  {:8.1f}   {}\n", m.sensor.size.width,
+             m.sensor.size.height, 100 * m.valid, map_ms(m), m.stages[Stage::attention].percentile_ms(0.5),
              m.frame.percentile_ms(0.95), 1000 / m.frame.percentile_ms(0.5), modes);
   if (m.reference_ms > 0)
     fmt::print(
@@ -120,8 +124,8 @@ void bench(const Settings& settings, double seconds) {
   check_levels(largest, Symmetry3dParams::from(settings));
   if (!settings.json)
     fmt::print(
-        "{}, k = {}, levels {}..{}, {} worker{}, {}\n     size    map ms  points ms    p95 ms  frames/s   "
-        "sustains\n",
+        "{}, k = {}, levels {}..{}, {} worker{}, {}\n"
+        "     size  valid %    map ms  points ms    p95 ms  frames/s   sustains\n",
         settings.model, settings.kernel, settings.first_level, settings.last_level, workers,
         workers == 1 ? "" : "s", instructions);
   nlohmann::ordered_json json = {{"model", settings.model},

@@ -233,6 +233,7 @@ TEST_F(RunTest, BenchTellsWhatThisMachineSustains) {
   const json report = json::parse(outcome.out);
   ASSERT_EQ(report["sizes"].size(), 4U);
   for (const json& size : report["sizes"]) {
+    EXPECT_NEAR(size["valid"].get<double>(), 0.8, 0.005);
     EXPECT_GE(size["frame_p95_ms"], size["frame_p50_ms"]);
     EXPECT_TRUE(size["sustains"]["30 Hz"].is_boolean());
   }

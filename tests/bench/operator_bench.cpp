@@ -1,49 +1,28 @@
 // The operator: whole and by stage, for instruction sets, threads, kernels and image sizes, against the naive
 // reference in the same run. Counters: ms of each stage a frame, and the share of valid pixels.
 
-#include <algorithm>
-#include <cmath>
+#include <chrono>
 #include <filesystem>
-#include <random>
 #include <string>
 
 #include <benchmark/benchmark.h>
 #include <opencv2/imgcodecs.hpp>
 
 #include "core/error.hpp"
+#include "drivers/synthetic_source.hpp"
 #include "saliency/reference.hpp"
 #include "saliency/symmetry3d.hpp"
 
 namespace saccade {
 namespace {
 
-/// A table with balls on it before a wall, in whole millimetres with a Kinect's noise; `holes` of it missing.
-cv::Mat1f table(cv::Size size, double holes = 0.27) {
-  const Intrinsics camera = Intrinsics::guess_for(size);
-  std::mt19937 random(1);
-  std::normal_distribution<double> noise(0, 1);
-  std::uniform_real_distribution<double> uniform(0, 1);
-  cv::Mat1f depth(size, 0.0f);
-  for (int r = 0; r < size.height; ++r)
-    for (int c = 0; c < size.width; ++c) {
-      const cv::Point3d ray = camera.point_mm(r, c, 1);
-      double z = std::min(2000.0, 800 / std::max(0.01, 0.7 * ray.y + 0.7));
-      for (int ball = 0; ball < 6; ++ball) {
-        const cv::Point3d centre(-350 + 140 * ball, 60 - 30 * (ball % 3), 850 + 60 * (ball % 2));
-        const double a = ray.dot(ray), b = ray.dot(centre), q = b * b - a * (centre.dot(centre) - 60 * 60);
-        if (q > 0) z = std::min(z, (b - std::sqrt(q)) / a);
-      }
-      depth(r, c) = static_cast<float>(std::round(z + 1.4e-6 * z * z * noise(random)));
-    }
-  // Shadows: upright strips, as structured light leaves them beside objects.
-  const double strip = 0.012 * size.width * 0.1 * size.height;
-  for (double missing = 0; missing < holes * size.area(); missing += strip) {
-    const cv::Rect shadow(static_cast<int>(uniform(random) * size.width),
-                          static_cast<int>(uniform(random) * size.height),
-                          std::max(1, static_cast<int>(0.012 * size.width)), std::max(1, size.height / 10));
-    depth(shadow & cv::Rect({0, 0}, size)) = 0;
-  }
-  return depth;
+/// As `saccade bench` has it: a table with a Kinect's noise, a fifth of it missing.
+cv::Mat1f table(cv::Size size) {
+  SyntheticSource source("synthetic:table?seed=1&noise=kinect&missing=0.2&frames=1&size=" +
+                         std::to_string(size.width) + "x" + std::to_string(size.height));
+  Frame frame;
+  source.read(frame, std::chrono::milliseconds(0));
+  return frame.depth_mm;
 }
 
 cv::Mat1f real_frame(const std::string& name) {
