@@ -102,6 +102,18 @@ HWY_INLINE void rotate(V& app, V& aqq, V& apq, V& arp, V& arq, V (&axis_p)[2], V
   }
 }
 
+/// Turns the axes round (which leaves them right-handed) so that the one of the smallest eigenvalue, whose
+/// plane lies along the surface, comes last: the lanes of a vector then agree about which plane is which.
+HWY_INLINE void last_is_smallest(Diagonalisation& a) {
+  const M first = hn::And(hn::Lt(a.xx, a.yy), hn::Lt(a.xx, a.zz)), second = hn::Lt(a.yy, a.zz);
+  for (int j = 0; j < 2; ++j) {
+    const V x = a.axes[0][j], y = a.axes[1][j], z = a.axes[2][j];
+    a.axes[0][j] = hn::IfThenElse(first, y, hn::IfThenElse(second, z, x));
+    a.axes[1][j] = hn::IfThenElse(first, z, hn::IfThenElse(second, x, y));
+    a.axes[2][j] = hn::IfThenElse(first, x, hn::IfThenElse(second, y, z));
+  }
+}
+
 /// Eigenvectors of the covariance at the `count` vectors of pixels that begin at `columns`, by cyclic Jacobi
 /// rotations. Several vectors go together because each rotation waits for the one before; `columns` is
 /// filled up with its last to a whole number of them.
@@ -130,6 +142,7 @@ HWY_INLINE void gaussian_image_axes(int* columns, int count, RowStatistics& stat
       for (auto& a : m) rotate(a.xx, a.zz, a.xz, a.xy, a.yz, a.axes[0], a.axes[2]);
       for (auto& a : m) rotate(a.yy, a.zz, a.yz, a.xy, a.xz, a.axes[1], a.axes[2]);
     }
+    for (auto& a : m) last_is_smallest(a);
     for (int g = 0; g < kTogether; ++g)
       for (int i = 0; i < 3; ++i) {
         const auto put = [&](int component, V v)

@@ -38,8 +38,8 @@ const Kernels* get_kernels() {
 #else
   constexpr std::string_view name = "scalar";
 #endif
-  static constexpr Kernels kernels{name,        kLanes,        load_rows,         halve_rows,
-                                   normal_rows, symmetry_rows, add_upsampled_rows};
+  static constexpr Kernels kernels{name,       kLanes,      kRunsFromReach, load_rows,
+                                   halve_rows, normal_rows, symmetry_rows,  add_upsampled_rows};
   return &kernels;
 }
 

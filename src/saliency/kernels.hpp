@@ -23,6 +23,7 @@ struct DepthRange {
 struct Kernels {
   std::string_view name;  ///< as in Settings::simd: "avx512", ...
   int lanes;              ///< floats a vector
+  int runs_from_reach;    ///< windows that reach so far need RowScratch::records
 
   /// Depth as it comes from a frame into kDepth and kInverse of level 0. What is not above 0 and at most
   /// 65535 mm counts as no reading.

@@ -23,6 +23,8 @@ DepthPacking DepthPacking::for_depths(float largest_mm, bool multiples_of_eighth
   };
   const auto fits = [&](int columns) { return depth_bits(columns) + bits(columns * rows) <= 32; };
   packing.units_per_mm = multiples_of_eighths ? 8 : 256;
+  while (packing.units_per_mm > 8 && largest_mm * packing.units_per_mm > kMostUnits)
+    packing.units_per_mm /= 2;
   while (!fits(1)) packing.units_per_mm /= 2;
   packing.columns = 1;
   while (packing.columns < rows && fits(packing.columns + 1)) ++packing.columns;

@@ -14,6 +14,8 @@ namespace saccade {
 /// whole units, in the lower `depth_bits`, and a one above them. The sum of `columns` columns of a window
 /// keeps both exact.
 struct DepthPacking {
+  static constexpr int kMostUnits = 1 << 19;  ///< no depth has more: 65535 mm in eighths
+
   float units_per_mm = 8;
   int depth_bits = 0;
   int columns = 0;

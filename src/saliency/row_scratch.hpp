@@ -7,6 +7,8 @@
 
 #include <hwy/aligned_allocator.h>
 
+#include "saliency/point_records.hpp"
+
 namespace saccade {
 
 /// A row of numbers with margins on both sides that may be read (and hold 0 unless a user writes there).
@@ -96,6 +98,7 @@ struct RowScratch {
     for (int r = 0; r < kPreparedRows; ++r) statistics.emplace_back(width);
   }
 
+  PointRecords records;                        ///< of the rows that windows reach, if these are large
   ColumnSums columns;                          ///< of the window's rows
   RunningTotals totals;                        ///< of the columns
   std::vector<RowStatistics> statistics;       ///< of each prepared row

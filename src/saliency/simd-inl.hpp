@@ -6,6 +6,7 @@
 #define SACCADE_SALIENCY_SIMD_INL
 #endif
 
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 
@@ -34,6 +35,10 @@ constexpr HalfWhole kHalfWhole{};
 constexpr Whole kWhole{};
 
 constexpr int kLanes = HWY_LANES(float), kWideLanes = HWY_LANES(double);
+
+/// Windows that reach so far are summed by runs, smaller ones point by point: where the two take equally
+/// long.
+constexpr int kRunsFromReach = kLanes >= 16 ? 27 : kLanes >= 8 ? 11 : 7;
 
 constexpr int round_up(int value, int step) { return (value + step - 1) / step * step; }
 
@@ -113,6 +118,54 @@ HWY_INLINE W in_register(W v) {
 }
 #if HWY_TARGET <= HWY_AVX3
 HWY_INLINE M in_register(M m) { return m; }
+#endif
+
+/// The lanes of a mask as bits, lane 0 the lowest.
+HWY_INLINE unsigned bits_of(M m) {
+  std::uint64_t bits = 0;
+  hn::StoreMaskBits(kF, m, reinterpret_cast<std::uint8_t*>(&bits));
+  return static_cast<unsigned>(bits);
+}
+
+/// Moves the lanes of a mask to the front of a vector; what follows them is anything.
+/// (Highway's Compress copies its table to the stack on AVX2, as g++ compiles it.)
+#if HWY_TARGET <= HWY_AVX3 || HWY_TARGET == HWY_SCALAR
+class LanePacker {
+ public:
+  HWY_INLINE explicit LanePacker(M m) : mask_(hn::RebindMask(kWhole, m)) {}
+  HWY_INLINE std::size_t size() const { return hn::CountTrue(kWhole, mask_); }
+  HWY_INLINE W operator()(W v) const { return hn::Compress(v, mask_); }
+
+ private:
+  hn::Mask<Whole> mask_;
+};
+#else
+/// The places of the ones in a byte, then anything.
+struct PlacesOfOnes {
+  std::uint8_t of[256][8];
+  constexpr PlacesOfOnes() : of() {
+    for (unsigned bits = 0; bits < 256; ++bits)
+      for (unsigned bit = 0, n = 0; bit < 8; ++bit)
+        if (bits >> bit & 1) of[bits][n++] = static_cast<std::uint8_t>(bit);
+  }
+};
+inline constexpr PlacesOfOnes kPlacesOfOnes;
+
+class LanePacker {
+ public:
+  HWY_INLINE explicit LanePacker(M m) {
+    const unsigned bits = bits_of(m);
+    size_ = static_cast<std::size_t>(std::popcount(bits));
+    constexpr hn::Rebind<std::uint8_t, Whole> kBytes;
+    places_ = hn::PromoteTo(kWhole, hn::LoadU(kBytes, kPlacesOfOnes.of[bits]));
+  }
+  HWY_INLINE std::size_t size() const { return size_; }
+  HWY_INLINE W operator()(W v) const { return hn::TableLookupLanes(v, hn::IndicesFromVec(kWhole, places_)); }
+
+ private:
+  std::size_t size_;
+  W places_;
+};
 #endif
 
 /// Which lanes' values enter a sum: a mask where sums can be masked, else 1 or 0 to be multiplied with.

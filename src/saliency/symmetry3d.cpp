@@ -64,7 +64,11 @@ void Symmetry3d::State::resize(cv::Size new_size) {
   levels.clear();
   scratch.clear();
   for (int l = 0; l <= params.last_level; ++l) levels.emplace_back(level_size(size, l), reach);
-  for (int w = 0; w < pool.workers(); ++w) scratch.emplace_back(size.width);
+  for (int w = 0; w < pool.workers(); ++w) {
+    scratch.emplace_back(size.width);
+    if (reach >= kernels.runs_from_reach)
+      scratch.back().records = PointRecords(size, reach, 2 * reach + RowScratch::kPreparedRows);
+  }
   bands = bands_of(levels, params.first_level);
   ranges.resize(static_cast<std::size_t>((size.height + kBandRows - 1) / kBandRows));
   weights.assign(levels.size(), 0);

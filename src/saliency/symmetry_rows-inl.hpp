@@ -12,6 +12,7 @@
 #include "saliency/denormals.hpp"
 #include "saliency/params.hpp"
 #include "saliency/plane_score-inl.hpp"
+#include "saliency/runs-inl.hpp"
 #include "saliency/sweep-inl.hpp"
 #include "saliency/window_sums-inl.hpp"
 
@@ -39,7 +40,7 @@ HWY_INLINE M points_at(const LevelPlanes& level, int row, int col) {
 
 /// Section 2 of SPEC at one vector of pixels: the best of the three planes, Eqs. (3, 13).
 HWY_INLINE V symmetry_at(const LevelPlanes& level, const Symmetry3dParams& params, const Window& window,
-                         int row, int col, RowStatistics& statistics) {
+                         int row, int col, RowStatistics& statistics, const PointRecords& records) {
   using S = RowStatistics;
   const auto get = [&](int value) HWY_ATTR { return hn::Load(kF, statistics.row(value) + col); };
   const Centres centres = centres_at(level, params, row, col);
@@ -54,7 +55,10 @@ HWY_INLINE V symmetry_at(const LevelPlanes& level, const Symmetry3dParams& param
     gamma[i] = {get(axis), get(axis + 1), get(axis + 2)};
   }
   HalfSums front[kPlanes];
-  sum_in_front(level, level.at(row, col), window, centres, gamma, front);
+  if (window.reach >= kRunsFromReach)
+    sum_runs_in_front(level, records, row, col, window, centres, gamma, front);
+  else
+    sum_in_front(level, level.at(row, col), window, centres, gamma, front);
   V best = zero();
   for (int i = 0; i < kPlanes; ++i) best = hn::Max(best, plane_score(centres, gamma[i], front[i], all));
   return hn::IfThenElseZero(points_at(level, row, col), best);
@@ -87,6 +91,11 @@ void symmetry_rows(LevelPlanes& level, const Symmetry3dParams& params, int begin
   const int reach = params.kernel / 2;
   for (int top = begin; top < end; top += RowScratch::kPreparedRows) {
     const int bottom = std::min(top + RowScratch::kPreparedRows, end);
+    if (reach >= kRunsFromReach) {
+      const int first = top == begin ? std::max(0, begin - reach) : top + reach;
+      for (int r = first; r < std::min(bottom + reach, level.height()); ++r)
+        record_row(level, r, reach, scratch.records);
+    }
     const auto statistics = [&](int r) -> RowStatistics& {
       return scratch.statistics[static_cast<std::size_t>(r - top)];
     };
@@ -96,7 +105,7 @@ void symmetry_rows(LevelPlanes& level, const Symmetry3dParams& params, int begin
         V score = zero();
         if (holds_a_point(level, r, c)) {
           const Window window{std::max(-reach, -r), std::min(reach, level.height() - 1 - r), reach};
-          score = symmetry_at(level, params, window, r, c, statistics(r));
+          score = symmetry_at(level, params, window, r, c, statistics(r), scratch.records);
         }
         hn::Store(score, kF, level.row(LevelPlanes::kScore, r) + c);
       }

@@ -84,6 +84,7 @@ TEST(DepthPacking, ItsSumsStayExact) {
       for (const float largest : {1.0f, 1900.0f, 4000.3f, 8191.0f, 8192.0f, 16300.0f, 38000.0f, 65535.0f}) {
         const DepthPacking packing = DepthPacking::for_depths(largest, eighths, rows);
         const double points = packing.columns * rows, units = std::ceil(largest * packing.units_per_mm);
+        EXPECT_LE(units, DepthPacking::kMostUnits) << largest;
         EXPECT_GE(packing.columns, 1);
         EXPECT_LE(packing.columns, rows);
         EXPECT_LT(points * units, std::exp2(packing.depth_bits)) << largest;

@@ -1,0 +1,16 @@
+#include "saliency/point_records.hpp"
+
+namespace saccade {
+
+PointRecords::PointRecords(cv::Size size, int reach, int rows) {
+  constexpr int kLine = 64, kPage = 4096, kVector = 16;
+  const int margin = (reach + 1) / 2 * 2 * kBytes;  // whole lines
+  // Rows follow each other a page and 17 lines on, so that those of a window do not compete for the same
+  // places in the nearest cache.
+  const int pitch =
+      (margin + (size.width + kVector + reach + 1) * kBytes + kPage - 1) / kPage * kPage + 17 * kLine;
+  memory_ = hwy::AllocateAligned<char>(static_cast<std::size_t>(pitch) * static_cast<std::size_t>(rows));
+  for (int r = 0; r < size.height; ++r) row_offset_.push_back(r % rows * pitch + margin);
+}
+
+}  // namespace saccade
