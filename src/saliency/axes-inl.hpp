@@ -8,6 +8,8 @@
 
 #include <limits>
 
+#include <algorithm>
+
 #include "saliency/level_planes.hpp"
 #include "saliency/row_scratch.hpp"
 #include "saliency/simd-inl.hpp"
@@ -114,18 +116,20 @@ HWY_INLINE void last_is_smallest(Diagonalisation& a) {
   }
 }
 
-/// Eigenvectors of the covariance at the `count` vectors of pixels that begin at `columns`, by cyclic Jacobi
-/// rotations. Several vectors go together because each rotation waits for the one before; `columns` is
-/// filled up with its last to a whole number of them.
-HWY_INLINE void gaussian_image_axes(int* columns, int count, RowStatistics& statistics) {
+/// Eigenvectors of the covariance in the groups of a row, by cyclic Jacobi rotations. Several groups go
+/// together because each rotation waits for the one before; the last one fills up their number.
+HWY_INLINE void gaussian_image_axes(RowStatistics& statistics) {
   using S = RowStatistics;
-  constexpr int kTogether = 4, kSweeps = 3;
-  const auto row = [&](int value, int column) { return statistics.row(value) + column; };
-  for (; count % kTogether != 0; ++count) columns[count] = columns[count - 1];
-  for (const int* const end = columns + count; columns != end; columns += kTogether) {
+  constexpr std::size_t kTogether = 4;
+  constexpr int kSweeps = 3;
+  const std::size_t count = statistics.groups.size();
+  for (std::size_t begin = 0; begin < count; begin += kTogether) {
+    const auto row = [&](int value, std::size_t g) {
+      return statistics.row(value) + statistics.groups[std::min(begin + g, count - 1)];
+    };
     Diagonalisation m[kTogether];
-    for (int g = 0; g < kTogether; ++g) {
-      const auto get = [&](S::Value value) HWY_ATTR { return hn::Load(kF, row(value, columns[g])); };
+    for (std::size_t g = 0; g < kTogether; ++g) {
+      const auto get = [&](S::Value value) HWY_ATTR { return load(row(value, g)); };
       const V n = hn::Add(get(S::kCount), set(1.0f));
       const V scale = reciprocal(hn::Max(hn::Mul(n, n), set(1.0f)));
       m[g].xx = hn::Mul(get(S::kCovXX), scale);
@@ -143,10 +147,10 @@ HWY_INLINE void gaussian_image_axes(int* columns, int count, RowStatistics& stat
       for (auto& a : m) rotate(a.yy, a.zz, a.yz, a.xy, a.xz, a.axes[1], a.axes[2]);
     }
     for (auto& a : m) last_is_smallest(a);
-    for (int g = 0; g < kTogether; ++g)
+    for (std::size_t g = 0; g < kTogether; ++g)
       for (int i = 0; i < 3; ++i) {
         const auto put = [&](int component, V v)
-                             HWY_ATTR { hn::Store(v, kF, row(S::kAxis0 + 3 * i + component, columns[g])); };
+                             HWY_ATTR { hn::StoreU(v, kF, row(S::kAxis0 + 3 * i + component, g)); };
         const V(&next)[2] = m[g].axes[(i + 1) % 3], (&last)[2] = m[g].axes[(i + 2) % 3];
         put(0, m[g].axes[i][0]);
         put(1, m[g].axes[i][1]);

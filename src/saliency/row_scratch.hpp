@@ -80,8 +80,11 @@ struct RowStatistics {
     kValues
   };
   std::array<PaddedRow<float>, kValues> values;
+  std::vector<int> groups;  ///< first columns of the vectors that hold the row's points, none of them twice
 
-  explicit RowStatistics(int width) : values(padded_rows<float, kValues>(width)) {}
+  explicit RowStatistics(int width) : values(padded_rows<float, kValues>(width)) {
+    groups.reserve(static_cast<std::size_t>(width));
+  }
   float* row(int value) { return values[static_cast<std::size_t>(value)].data(); }
 };
 
@@ -93,8 +96,7 @@ struct RowScratch {
       : columns(width),
         totals(width),
         halving(padded_rows<double, 4>(width)),
-        upsampling(padded_rows<float, 2>(width)),
-        groups(hwy::AllocateAligned<int>(static_cast<std::size_t>(width + 16))) {
+        upsampling(padded_rows<float, 2>(width)) {
     for (int r = 0; r < kPreparedRows; ++r) statistics.emplace_back(width);
   }
 
@@ -104,7 +106,6 @@ struct RowScratch {
   std::vector<RowStatistics> statistics;       ///< of each prepared row
   std::array<PaddedRow<double>, 4> halving;    ///< pyramid: depths and weights of even and of odd columns
   std::array<PaddedRow<float>, 2> upsampling;  ///< master map
-  hwy::AlignedFreeUniquePtr<int[]> groups;     ///< first columns of the vectors that hold a point
 };
 
 }  // namespace saccade

@@ -240,8 +240,8 @@ HWY_INLINE void add_block(const BlockSums& block_sums, const Block& block, int r
 /// however long the row is; what is left to do for every point is the comparison that decides its side. The
 /// sums are exact.
 HWY_NOINLINE void sum_runs_in_front(const LevelPlanes& level, const PointRecords& records, int row, int col,
-                                  const Window& window, const Centres& centres, const Vec3* gamma,
-                                  HalfSums* sums) {
+                                    const Window& window, const Centres& centres, const Vec3* gamma,
+                                    HalfSums* sums) {
   const std::ptrdiff_t at = level.at(row, col);
   const W packed = hn::BitCast(kWhole, load(level.plane(LevelPlanes::kPacked) + at));
   const W z0 = hn::And(packed, hn::Set(kWhole, (1 << level.packing.depth_bits) - 1));

@@ -7,6 +7,8 @@
 #endif
 
 #include <algorithm>
+#include <bit>
+#include <vector>
 
 #include "saliency/axes-inl.hpp"
 #include "saliency/denormals.hpp"
@@ -34,7 +36,7 @@ HWY_INLINE Centres centres_at(const LevelPlanes& level, const Symmetry3dParams& 
 
 /// Which pixels of a vector are points of the operator.
 HWY_INLINE M points_at(const LevelPlanes& level, int row, int col) {
-  const auto packed = hn::BitCast(kWhole, hn::Load(kF, level.row(LevelPlanes::kPacked, row) + col));
+  const auto packed = hn::BitCast(kWhole, load(level.row(LevelPlanes::kPacked, row) + col));
   return hn::RebindMask(kF, hn::Gt(packed, hn::Zero(kWhole)));
 }
 
@@ -42,7 +44,7 @@ HWY_INLINE M points_at(const LevelPlanes& level, int row, int col) {
 HWY_INLINE V symmetry_at(const LevelPlanes& level, const Symmetry3dParams& params, const Window& window,
                          int row, int col, RowStatistics& statistics, const PointRecords& records) {
   using S = RowStatistics;
-  const auto get = [&](int value) HWY_ATTR { return hn::Load(kF, statistics.row(value) + col); };
+  const auto get = [&](int value) HWY_ATTR { return load(statistics.row(value) + col); };
   const Centres centres = centres_at(level, params, row, col);
   const HalfSums all{get(S::kCount),
                      get(S::kZ),
@@ -64,22 +66,26 @@ HWY_INLINE V symmetry_at(const LevelPlanes& level, const Symmetry3dParams& param
   return hn::IfThenElseZero(points_at(level, row, col), best);
 }
 
-HWY_INLINE bool holds_a_point(const LevelPlanes& level, int row, int col) {
-  return !hn::AllFalse(kF, points_at(level, row, col));
+/// Covers the points of row r with few vectors: each begins at the first point that no other holds.
+HWY_INLINE void find_groups(const LevelPlanes& level, int r, std::vector<int>& groups) {
+  groups.clear();
+  for (int c = 0; c < level.width(); c += kLanes) {
+    const unsigned points = bits_of(points_at(level, r, c));
+    if (points == 0) continue;
+    c += std::countr_zero(points);
+    groups.push_back(c);
+  }
 }
 
 /// Everything of row r that is needed before single points are looked at.
 HWY_INLINE void prepare_row(const LevelPlanes& level, int r, int reach, bool first, RowStatistics& statistics,
                             RowScratch& scratch) {
   slide_column_sums(level, r, reach, first, scratch);
-  int* columns = scratch.groups.get();
-  int groups = 0;
-  for (int c = 0; c < level.width(); c += kLanes)
-    if (holds_a_point(level, r, c)) columns[groups++] = c;
-  if (groups == 0) return;
+  find_groups(level, r, statistics.groups);
+  if (statistics.groups.empty()) return;
   total_columns(level, reach, scratch);
   window_statistics(level, r, reach, scratch.totals, statistics);
-  gaussian_image_axes(columns, groups, statistics);
+  gaussian_image_axes(statistics);
 }
 
 /// Kernels::symmetry_rows. A few rows are prepared at a time, as many as the caches hold the statistics of;
@@ -99,15 +105,19 @@ void symmetry_rows(LevelPlanes& level, const Symmetry3dParams& params, int begin
     const auto statistics = [&](int r) -> RowStatistics& {
       return scratch.statistics[static_cast<std::size_t>(r - top)];
     };
-    for (int r = top; r < bottom; ++r) prepare_row(level, r, reach, r == begin, statistics(r), scratch);
-    for (int c = 0; c < level.width(); c += kLanes)
+    std::size_t groups = 0;
+    for (int r = top; r < bottom; ++r) {
+      prepare_row(level, r, reach, r == begin, statistics(r), scratch);
+      groups = std::max(groups, statistics(r).groups.size());
+      std::fill_n(level.row(LevelPlanes::kScore, r), level.width(), 0.0f);
+    }
+    for (std::size_t g = 0; g < groups; ++g)
       for (int r = top; r < bottom; ++r) {
-        V score = zero();
-        if (holds_a_point(level, r, c)) {
-          const Window window{std::max(-reach, -r), std::min(reach, level.height() - 1 - r), reach};
-          score = symmetry_at(level, params, window, r, c, statistics(r), scratch.records);
-        }
-        hn::Store(score, kF, level.row(LevelPlanes::kScore, r) + c);
+        if (g >= statistics(r).groups.size()) continue;
+        const int c = statistics(r).groups[g];
+        const Window window{std::max(-reach, -r), std::min(reach, level.height() - 1 - r), reach};
+        hn::StoreU(symmetry_at(level, params, window, r, c, statistics(r), scratch.records), kF,
+                   level.row(LevelPlanes::kScore, r) + c);
       }
   }
 }
