@@ -16,6 +16,9 @@ namespace {
 // Rows that one worker takes at a time. They are the same for any number of workers, and with them every bit.
 constexpr int kBandRows = 16;
 
+// Below so many pixels it takes longer to wake the workers than to go over a level: 160 x 120 is still below.
+constexpr int kWorthSharing = 32768;
+
 struct Band {
   int level, begin, end;  // rows
 };
@@ -81,7 +84,12 @@ void Symmetry3d::State::for_bands_of(int level, Job job) {
   const auto band = [&](int b, int worker) {
     job(b * kBandRows, std::min((b + 1) * kBandRows, height), scratch[static_cast<std::size_t>(worker)], b);
   };
-  pool.for_each((height + kBandRows - 1) / kBandRows, std::ref(band));
+  const int count = (height + kBandRows - 1) / kBandRows;
+  if (height * levels[static_cast<std::size_t>(level)].width() < kWorthSharing) {
+    for (int b = 0; b < count; ++b) band(b, 0);
+    return;
+  }
+  pool.for_each(count, std::ref(band));
 }
 
 // SPEC 1.1 and 1.2
