@@ -19,7 +19,7 @@ struct DepthRange {
 
 /// The stages of the operator for rows [begin, end) of a level, compiled for one instruction set. They write
 /// these rows and nothing else (besides the scratch memory), and a row's bits do not depend on how rows are
-/// divided, except that symmetry_rows() must always be given the same `begin` for the same rows.
+/// divided.
 struct Kernels {
   std::string_view name;  ///< as in Settings::simd: "avx512", ...
   int lanes;              ///< floats a vector

@@ -23,7 +23,7 @@ struct DepthPacking {
   /// For depths up to `largest_mm`, itself at most 65535, and windows of `rows` rows and columns. If all are
   /// multiples of 1/8 mm (as every level but the first is, and that too with a usual sensor) nothing is
   /// rounded; else depths are rounded to units of down to 1/256 mm where they are summed, and nowhere else.
-  /// Differs: beyond 16 m the largest windows have no room for eighths and sum in coarser units.
+  /// Differs: beyond 33 m the largest windows have no room for eighths and sum in coarser units.
   static DepthPacking for_depths(float largest_mm, bool multiples_of_eighths, int rows);
 };
 

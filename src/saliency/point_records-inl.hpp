@@ -64,7 +64,7 @@ HWY_INLINE void record_row(const LevelPlanes& level, int r, int reach, PointReco
     const W p = hn::BitCast(kWhole, hn::Load(kF, packed + c)), z = hn::And(p, depth_mask);
     const W count = hn::IfThenElseZero(hn::Gt(p, hn::Zero(kWhole)), hn::Set(kWhole, 1));
     const auto normal = [&](LevelPlanes::Plane plane) HWY_ATTR {
-      return hn::NearestInt(hn::Mul(hn::Load(kF, level.row(plane, r) + c), unit));
+      return nearest(hn::Mul(hn::Load(kF, level.row(plane, r) + c), unit));
     };
     hn::StoreInterleaved4(count, z, hn::Mul(z, row), hn::Mul(z, hn::Iota(kWhole, c)), kWhole, first);
     hn::StoreInterleaved4(normal(LevelPlanes::kNormalX), normal(LevelPlanes::kNormalY),

@@ -13,7 +13,7 @@
 namespace saccade {
 namespace {
 
-// Rows that one worker takes at a time. They are the same for any number of workers, and with them every bit.
+// Rows that one worker takes at a time.
 constexpr int kBandRows = 16;
 
 // Below so many pixels it takes longer to wake the workers than to go over a level: 160 x 120 is still below.
