@@ -28,7 +28,7 @@ HWY_INLINE void window_statistics(const LevelPlanes& level, int r, int reach, Ru
   const WideV whole_unit = hn::Set(kWide, 1.0 / (1 << normal_bits(reach)));
   const WideV inverse_units = hn::Set(kWide, 1.0 / static_cast<double>(level.packing.units_per_mm));
   const auto depth_mask = hn::Set(kHalfWhole, (1 << level.packing.depth_bits) - 1);
-  const auto* packed = reinterpret_cast<const std::int32_t*>(level.row(LevelPlanes::kPacked, r));
+  const float* packed = level.row(LevelPlanes::kPacked, r);
   for (int c = 0; c < level.width(); c += kWideLanes) {
     const auto window = [&](auto tag, auto* row) HWY_ATTR {
       return hn::Sub(hn::LoadU(tag, row + c + reach), hn::LoadU(tag, row + c - reach - 1));
@@ -61,7 +61,8 @@ HWY_INLINE void window_statistics(const LevelPlanes& level, int r, int reach, Ru
     const auto top = hn::Set(kHalfWhole, std::numeric_limits<std::int32_t>::min());
     const WideV z_units =
         hn::Sub(hn::PromoteTo(kWide, hn::Xor(whole(RunningTotals::kDepth), top)), hn::PromoteTo(kWide, top));
-    const WideV z0 = hn::PromoteTo(kWide, hn::And(hn::Load(kHalfWhole, packed + c), depth_mask));
+    const WideV z0 =
+        hn::PromoteTo(kWide, hn::And(hn::BitCast(kHalfWhole, hn::Load(kHalfF, packed + c)), depth_mask));
     put(S::kCount, hn::Sub(n, hn::Set(kWide, 1.0)));
     put(S::kZ, hn::Mul(hn::NegMulAdd(n, z0, z_units), inverse_units));
     put(S::kZRows, depth(RunningTotals::kDepthRows));

@@ -8,6 +8,8 @@
 #endif
 
 #include <algorithm>
+#include <bit>
+#include <cstring>
 
 #include "saliency/level_planes.hpp"
 #include "saliency/plane_score-inl.hpp"
@@ -48,11 +50,13 @@ static_assert(kChunk % kLanes == 0);
 /// Of each centre of a vector, on which side of each plane the points of its block lie: bit i of
 /// rows[plane][v][lane] tells whether that in column i and row v is in front.
 struct Sides {
-  alignas(64) std::uint16_t rows[kPlanes][PointRecords::kMostSide][kLanes][2] = {};
+  static_assert(std::endian::native == std::endian::little);
+  alignas(64) std::int32_t rows[kPlanes][PointRecords::kMostSide][kLanes] = {};
 
-  std::int32_t* row(int plane, int v) { return reinterpret_cast<std::int32_t*>(rows[plane][v][0]); }
-  const std::int32_t* row(int plane, int v) const {
-    return reinterpret_cast<const std::int32_t*>(rows[plane][v][0]);
+  /// Sets the bits of a chunk that begins in column `first`.
+  HWY_INLINE void set_chunk(int plane, int v, int lane, int first, unsigned bits) {
+    const auto chunk = static_cast<std::uint16_t>(bits);
+    std::memcpy(reinterpret_cast<char*>(&rows[plane][v][lane]) + first / 8, &chunk, sizeof chunk);
   }
 };
 
@@ -83,15 +87,13 @@ HWY_INLINE void find_sides(const LevelPlanes& level, std::ptrdiff_t at, const Bl
         for (int i = 0; i < kPlanes; ++i)
           bits[i] |= bits_of(hn::Gt(q, hn::MulAdd(per_row[i], dr, at_col[i][u]))) << (u * kLanes);
       }
-      for (int i = 0; i < kPlanes; ++i)
-        sides.rows[i][v][lane][first / kChunk] = static_cast<std::uint16_t>(bits[i]);
+      for (int i = 0; i < kPlanes; ++i) sides.set_chunk(i, v, lane, first, bits[i]);
     }
   }
 }
 
-/// Where the records are: that of the first column and row v of the block of lane l is at base +
-/// row_offset[v]
-/// + l records.
+/// Where the records are: that of the first column and row v of the first lane's block is row_offset[v] bytes
+/// from base, those of the other lanes follow it.
 struct BlockRecords {
   const char* base;
   std::int32_t row_offset[PointRecords::kMostSide];
@@ -126,8 +128,8 @@ HWY_INLINE void take_first_runs(const BlockRecords& records, const Block& block,
     const M at_end = hn::Lt(hn::Load(kF, centres.per_col[i]), zero());
     const W flip = hn::IfThenElseZero(hn::RebindMask(kWhole, at_end), all);
     for (int v = 0; v < block.rows; ++v) {
-      const W x = hn::And(hn::Xor(hn::Load(kWhole, sides.row(i, v)), flip), all), next = hn::Add(x, one);
-      hn::Store(hn::And(x, next), kWhole, sides.row(i, v));
+      const W x = hn::And(hn::Xor(hn::Load(kWhole, sides.rows[i][v]), flip), all), next = hn::Add(x, one);
+      hn::Store(hn::And(x, next), kWhole, sides.rows[i][v]);
       hn::Store(hn::Add(record_offset(hn::AndNot(x, next)), records.row_offsets(v)), kWhole, ends[i][v]);
     }
   }
@@ -190,7 +192,7 @@ HWY_INLINE void add_other_runs(const BlockRecords& records, const Block& block, 
   for (int i = 0; i < kPlanes; ++i) {
     const W sum = hn::Add(lanes, hn::Set(kWhole, i * PointRecords::kNumbers));
     for (int v = 0; v < block.rows; ++v) {
-      W rest = hn::Load(kWhole, sides.row(i, v));
+      W rest = hn::Load(kWhole, sides.rows[i][v]);
       auto some = hn::Ne(rest, hn::Zero(kWhole));
       if (hn::AllFalse(kWhole, some)) continue;
       const W row = records.row_offsets(v);
