@@ -14,7 +14,7 @@ namespace saccade {
 namespace {
 
 // Rows that one worker takes at a time.
-constexpr int kBandRows = 16;
+constexpr int kBandRows = 24;
 
 // Below so many pixels it takes longer to wake the workers than to go over a level: 160 x 120 is still below.
 constexpr int kWorthSharing = 32768;
