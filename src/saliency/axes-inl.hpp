@@ -25,9 +25,9 @@ HWY_INLINE void window_statistics(const LevelPlanes& level, int r, int reach, Ru
                                   RowStatistics& statistics) {
   using S = RowStatistics;
   using C = ColumnSums;
-  const WideV whole_unit = hn::Set(kWide, 1.0 / (1 << normal_bits(reach)));
+  const WideV whole_unit = hn::Set(kWide, 1.0 / normal_units(reach));
   const WideV inverse_units = hn::Set(kWide, 1.0 / static_cast<double>(level.packing.units_per_mm));
-  const auto depth_mask = hn::Set(kHalfWhole, (1 << level.packing.depth_bits) - 1);
+  const auto depth_mask = hn::Set(kHalfWhole, level.packing.depth_mask());
   const float* packed = level.row(LevelPlanes::kPacked, r);
   for (int c = 0; c < level.width(); c += kWideLanes) {
     const auto window = [&](auto tag, auto* row) HWY_ATTR {

@@ -20,6 +20,9 @@ struct DepthPacking {
   int depth_bits = 0;
   int columns = 0;
 
+  int one() const { return 1 << depth_bits; }               ///< what a pixel adds besides its depth
+  int depth_mask() const { return (1 << depth_bits) - 1; }  ///< the bits of the depth
+
   /// For depths up to `largest_mm`, itself at most 65535, and windows of `rows` rows and columns. If all are
   /// multiples of 1/8 mm (as every level but the first is, and that too with a usual sensor) nothing is
   /// rounded; else depths are rounded to units of down to 1/256 mm where they are summed, and nowhere else.

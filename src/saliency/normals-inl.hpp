@@ -78,7 +78,7 @@ HWY_INLINE Vec3 normal_of_fit(const PlaneFitSums& s, const Intrinsics& camera, i
 /// Kernels::normal_rows
 void normal_rows(LevelPlanes& level, int begin, int end) {
   const V nan = set(std::numeric_limits<float>::quiet_NaN());
-  const auto one = hn::Set(kWhole, 1 << level.packing.depth_bits);
+  const auto one = hn::Set(kWhole, level.packing.one());
   const V per_mm = set(level.packing.units_per_mm);
   for (int r = begin; r < end; ++r)
     for (int c = 0; c < level.width(); c += kLanes) {
@@ -99,7 +99,7 @@ void normal_rows(LevelPlanes& level, int begin, int end) {
       put(LevelPlanes::kNormalZ, hn::IfThenElseZero(usable, normal.z));
       put(LevelPlanes::kUsableInverse,
           hn::IfThenElse(usable, hn::Load(kF, level.plane(LevelPlanes::kInverse) + at), nan));
-      const V packed = hn::BitCast(kF, hn::Add(one, hn::NearestInt(hn::Mul(z, per_mm))));
+      const V packed = hn::BitCast(kF, hn::Add(one, nearest(hn::Mul(z, per_mm))));
       put(LevelPlanes::kPacked, hn::IfThenElseZero(usable, packed));
     }
 }

@@ -49,8 +49,8 @@ HWY_INLINE const std::int32_t* record_at(const char* base, std::int32_t offset) 
 /// Fills the records of row r.
 HWY_INLINE void record_row(const LevelPlanes& level, int r, int reach, PointRecords& records) {
   constexpr int kHalf = PointRecords::kNumbers / 2;
-  const V unit = set(static_cast<float>(1 << normal_bits(reach)));
-  const W depth_mask = hn::Set(kWhole, (1 << level.packing.depth_bits) - 1), row = hn::Set(kWhole, r);
+  const V unit = set(normal_units(reach));
+  const W depth_mask = hn::Set(kWhole, level.packing.depth_mask()), row = hn::Set(kWhole, r);
   const float* packed = level.row(LevelPlanes::kPacked, r);
   alignas(64) std::int32_t first[kHalf * kLanes], second[kHalf * kLanes];
   PartSum<kHalf> first_sum, second_sum;

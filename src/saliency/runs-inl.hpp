@@ -21,6 +21,10 @@ HWY_BEFORE_NAMESPACE();
 namespace saccade {
 namespace HWY_NAMESPACE {
 
+/// Windows that reach so far are summed by runs, smaller ones point by point: where the two take equally
+/// long.
+constexpr int kRunsFromReach = kLanes >= 16 ? 27 : kLanes >= 8 ? 11 : 7;
+
 /// A part of a window, relative to its centre, of at most PointRecords::kMostSide rows and columns.
 struct Block {
   int first_row, rows, first_col, cols;
@@ -246,9 +250,9 @@ HWY_NOINLINE void sum_runs_in_front(const LevelPlanes& level, const PointRecords
                                     HalfSums* sums) {
   const std::ptrdiff_t at = level.at(row, col);
   const W packed = hn::BitCast(kWhole, load(level.plane(LevelPlanes::kPacked) + at));
-  const W z0 = hn::And(packed, hn::Set(kWhole, (1 << level.packing.depth_bits) - 1));
-  const M valid = hn::RebindMask(kF, hn::Gt(packed, hn::Zero(kWhole)));
-  const BlockCentres points(valid, SweepPlanes(gamma, centres, load(level.plane(LevelPlanes::kDepth) + at)));
+  const W z0 = hn::And(packed, hn::Set(kWhole, level.packing.depth_mask()));
+  const BlockCentres points(points_at(level, row, col),
+                            SweepPlanes(gamma, centres, load(level.plane(LevelPlanes::kDepth) + at)));
   for (int i = 0; i < kPlanes; ++i) sums[i] = {zero(), zero(), zero(), zero(), {zero(), zero(), zero()}};
   alignas(64) BlockSums block_sums = {};
   alignas(64) RunEnds ends;
@@ -265,7 +269,7 @@ HWY_NOINLINE void sum_runs_in_front(const LevelPlanes& level, const PointRecords
       add_block(block_sums, block, row, col, z0, sums);
     }
   const V mm = set(1 / level.packing.units_per_mm);
-  const V normal_unit = set(1.0f / static_cast<float>(1 << normal_bits(window.reach)));
+  const V normal_unit = set(1.0f / normal_units(window.reach));
   for (int i = 0; i < kPlanes; ++i) {
     sums[i].z = hn::Mul(sums[i].z, mm);
     sums[i].z_rows = hn::Mul(sums[i].z_rows, mm);

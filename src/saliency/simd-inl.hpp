@@ -36,16 +36,23 @@ constexpr Whole kWhole{};
 
 constexpr int kLanes = HWY_LANES(float), kWideLanes = HWY_LANES(double);
 
-/// Windows that reach so far are summed by runs, smaller ones point by point: where the two take equally
-/// long.
-constexpr int kRunsFromReach = kLanes >= 16 ? 27 : kLanes >= 8 ? 11 : 7;
-
 constexpr int round_up(int value, int step) { return (value + step - 1) / step * step; }
 
 HWY_INLINE V set(float x) { return hn::Set(kF, x); }
 HWY_INLINE V set(double x) { return hn::Set(kF, static_cast<float>(x)); }
 HWY_INLINE V zero() { return hn::Zero(kF); }
 HWY_INLINE V load(const float* p) { return hn::LoadU(kF, p); }
+
+/// The whole number nearest to each lane, which must fit.
+HWY_INLINE W nearest(V v) {
+#if HWY_TARGET <= HWY_AVX3
+  return W{_mm512_cvtps_epi32(v.raw)};
+#elif HWY_TARGET == HWY_AVX2
+  return W{_mm256_cvtps_epi32(v.raw)};
+#else
+  return hn::NearestInt(v);
+#endif
+}
 
 /// The bits of v, which are those of a whole number without sign, moved down.
 HWY_INLINE W shift_right(W v, int bits) {

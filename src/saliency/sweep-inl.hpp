@@ -43,6 +43,12 @@ constexpr bool kSweepsOnce = true;
 constexpr bool kSweepsOnce = false;
 #endif
 
+/// Which pixels of a vector are points of the operator.
+HWY_INLINE M points_at(const LevelPlanes& level, int row, int col) {
+  const auto packed = hn::BitCast(kWhole, load(level.row(LevelPlanes::kPacked, row) + col));
+  return hn::RebindMask(kF, hn::Gt(packed, hn::Zero(kWhole)));
+}
+
 /// Where the points of a level are, seen from a centre.
 struct Points {
   const float *depth, *inverse, *packed, *normal_x, *normal_y, *normal_z;
@@ -162,7 +168,7 @@ HWY_INLINE void sum_in_front(const LevelPlanes& level, std::ptrdiff_t at, const 
   const Points points(level, at);
   const SweepPlanes planes(gamma, centres, load(points.depth));
   const DepthPacking& packing = level.packing;
-  const W depth_mask = hn::Set(kWhole, (1 << packing.depth_bits) - 1);
+  const W depth_mask = hn::Set(kWhole, packing.depth_mask());
   const W z0 = hn::And(hn::BitCast(kWhole, load(points.packed)), depth_mask);
   RunningSums running;
   for (int i = 0; i < kPlanes; ++i) {

@@ -34,12 +34,6 @@ HWY_INLINE Centres centres_at(const LevelPlanes& level, const Symmetry3dParams& 
   return centres;
 }
 
-/// Which pixels of a vector are points of the operator.
-HWY_INLINE M points_at(const LevelPlanes& level, int row, int col) {
-  const auto packed = hn::BitCast(kWhole, load(level.row(LevelPlanes::kPacked, row) + col));
-  return hn::RebindMask(kF, hn::Gt(packed, hn::Zero(kWhole)));
-}
-
 /// Section 2 of SPEC at one vector of pixels: the best of the three planes, Eqs. (3, 13).
 HWY_INLINE V symmetry_at(const LevelPlanes& level, const Symmetry3dParams& params, const Window& window,
                          int row, int col, RowStatistics& statistics, const PointRecords& records) {

@@ -17,21 +17,11 @@ HWY_BEFORE_NAMESPACE();
 namespace saccade {
 namespace HWY_NAMESPACE {
 
-/// Normals and their products are summed in units of 2^-bits, as fine as 32 bits allow for a window's points.
-inline int normal_bits(int reach) {
+/// Normals and their products are summed as so many whole units to 1, a power of 2: as many as 32 bits allow
+/// for a window's points.
+inline float normal_units(int reach) {
   const unsigned points = static_cast<unsigned>((2 * reach + 1) * (2 * reach + 1));
-  return 31 - static_cast<int>(std::bit_width(points));
-}
-
-/// The whole number nearest to each lane, which must fit.
-HWY_INLINE W nearest(V v) {
-#if HWY_TARGET <= HWY_AVX3
-  return W{_mm512_cvtps_epi32(v.raw)};
-#elif HWY_TARGET == HWY_AVX2
-  return W{_mm256_cvtps_epi32(v.raw)};
-#else
-  return hn::NearestInt(v);
-#endif
+  return static_cast<float>(1 << (31 - std::bit_width(points)));
 }
 
 /// Adds (sign = 1) or takes away (-1) the pixels at `at`, which lie `dr` rows from the centre, to the sums of
@@ -62,8 +52,8 @@ HWY_INLINE void add_pixels(const LevelPlanes& level, std::ptrdiff_t at, int dr, 
 /// The sums of each column of the window of row r; `first` if those of row r - 1 are not there.
 HWY_INLINE void slide_column_sums(const LevelPlanes& level, int r, int reach, bool first,
                                   RowScratch& scratch) {
-  const V unit = set(static_cast<float>(1 << normal_bits(reach)));
-  const W depth_mask = hn::Set(kWhole, (1 << level.packing.depth_bits) - 1);
+  const V unit = set(normal_units(reach));
+  const W depth_mask = hn::Set(kWhole, level.packing.depth_mask());
   for (int c = 0; c < level.width() + reach; c += kLanes) {
     W sums[ColumnSums::kSums];
     const auto add_row = [&](int row, int sign) HWY_ATTR {
@@ -108,7 +98,7 @@ HWY_INLINE hn::Vec<Tag> running_total(Tag tag, hn::Vec<Tag> v, hn::Vec<Tag>& bef
 HWY_INLINE void total_columns(const LevelPlanes& level, int reach, RowScratch& scratch) {
   using S = ColumnSums;
   using T = RunningTotals;
-  const W depth_mask = hn::Set(kWhole, (1 << level.packing.depth_bits) - 1);
+  const W depth_mask = hn::Set(kWhole, level.packing.depth_mask());
   const auto columns = [&](int sum) { return scratch.columns.sums[static_cast<std::size_t>(sum)].data(); };
   W whole[T::kWholes];
   for (W& total : whole) total = hn::Zero(kWhole);
@@ -121,7 +111,7 @@ HWY_INLINE void total_columns(const LevelPlanes& level, int reach, RowScratch& s
     for (int i = 0; i < S::kNormals; ++i) put(i, hn::Load(kWhole, columns(i) + c));
     put(T::kDepth, hn::And(hn::Load(kWhole, columns(S::kPacked) + c), depth_mask));
   }
-  const auto half_mask = hn::Set(kHalfWhole, (1 << level.packing.depth_bits) - 1);
+  const auto half_mask = hn::Set(kHalfWhole, level.packing.depth_mask());
   for (int c = 0; c < level.width() + reach; c += kWideLanes) {
     const WideV rows = hn::PromoteTo(kWide, hn::Load(kHalfWhole, columns(S::kDepthRows) + c));
     const WideV depth =
