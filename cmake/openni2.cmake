@@ -11,12 +11,12 @@
 #       libSaccadeVirtual.so.0, libSaccadeFreenect.so.0  drivers/modules
 #
 # saccade_use_sensors(TARGET) makes a program or test do so, without any environment variable. A library that only calls
-# OpenNI2 links saccade_openni2. Other programs, such as NiViewer2, see our devices with LD_LIBRARY_PATH=<that folder>.
+# OpenNI2 links OpenNI2::OpenNI2. Other programs, such as NiViewer2, see our devices with LD_LIBRARY_PATH=<that folder>.
 find_library(OPENNI2_LIBRARY OpenNI2 REQUIRED)
 find_path(OPENNI2_INCLUDE_DIR OpenNI.h PATH_SUFFIXES openni2 REQUIRED)
-add_library(saccade_openni2 INTERFACE)
-target_link_libraries(saccade_openni2 INTERFACE ${OPENNI2_LIBRARY})
-target_include_directories(saccade_openni2 SYSTEM INTERFACE ${OPENNI2_INCLUDE_DIR})
+add_library(OpenNI2::OpenNI2 INTERFACE IMPORTED GLOBAL)
+target_link_libraries(OpenNI2::OpenNI2 INTERFACE ${OPENNI2_LIBRARY})
+target_include_directories(OpenNI2::OpenNI2 SYSTEM INTERFACE ${OPENNI2_INCLUDE_DIR})
 
 set(SACCADE_REDIST ${PROJECT_BINARY_DIR}/openni2)
 set(SACCADE_REDIST_INSTALLED lib/saccade/openni2)
@@ -49,10 +49,10 @@ function(saccade_driver_module name)
 endfunction()
 
 function(saccade_use_sensors target)
-  target_link_libraries(${target} PRIVATE saccade_openni2)
+  target_link_libraries(${target} PRIVATE OpenNI2::OpenNI2)
   add_dependencies(${target} saccade_driver_modules)
   if(SACCADE_SANITIZE MATCHES address)
-    target_sources(${target} PRIVATE ${PROJECT_SOURCE_DIR}/tests/keep_modules.cpp)
+    target_sources(${target} PRIVATE ${PROJECT_SOURCE_DIR}/tests/support/keep_modules.cpp)
   endif()
   set_target_properties(${target} PROPERTIES
     BUILD_RPATH ${SACCADE_REDIST} INSTALL_RPATH $ORIGIN/../${SACCADE_REDIST_INSTALLED})

@@ -33,13 +33,13 @@ void copy_attention(const Attention& from, Attention& to) {
 
 }  // namespace
 
-bool has_maps(const Computed& of, Settings settings, SaliencyWants wants) {
+bool has_maps(const Computed& of, Settings settings, RequestedOutputs wants) {
   settings.last_level = last_level_for(settings, of.result.frame.size());
   return of.error.empty() && same_model(of.settings, settings) && of.wants.levels == wants.levels &&
          of.wants.normals == wants.normals;
 }
 
-void Engine::compute(const Settings& wanted, SaliencyWants wants, const Computed* last, Computed& out) {
+void Engine::compute(const Settings& wanted, RequestedOutputs wants, const Computed* last, Computed& out) {
   const Frame& frame = out.result.frame;
   Settings settings = wanted;
   settings.last_level = last_level_for(settings, frame.size());
@@ -68,7 +68,8 @@ void Engine::compute(const Settings& wanted, SaliencyWants wants, const Computed
   out.outlines = proto_outlines(out.result.attention);
 }
 
-void Engine::find_maps(const Settings& settings, SaliencyWants wants, const Computed* last, Computed& out) {
+void Engine::find_maps(const Settings& settings, RequestedOutputs wants, const Computed* last,
+                       Computed& out) {
   if (last != nullptr && has_maps(*last, settings, wants)) {
     copy_maps(last->result.maps, out.result.maps);
     last->smooth.copyTo(out.smooth);

@@ -7,7 +7,7 @@
 #include <opencv2/core.hpp>
 
 #include "core/frame.hpp"
-#include "ui/overlay.hpp"
+#include "output/overlay.hpp"
 
 namespace saccade {
 

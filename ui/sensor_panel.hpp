@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "pipeline/frame_source.hpp"
-#include "pipeline/sensor_controls.hpp"
+#include "core/frame_source.hpp"
+#include "core/sensor_controls.hpp"
 #include "ui/device_watch.hpp"
 #include "ui/panel_parts.hpp"
 #include "ui/recording_session.hpp"

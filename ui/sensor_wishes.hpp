@@ -1,7 +1,7 @@
 #pragma once
 
+#include "core/sensor_controls.hpp"
 #include "core/settings.hpp"
-#include "pipeline/sensor_controls.hpp"
 
 namespace saccade {
 

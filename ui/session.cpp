@@ -3,7 +3,7 @@
 #include <exception>
 #include <utility>
 
-#include "pipeline/played_source.hpp"
+#include "pipeline/paced_source.hpp"
 
 namespace saccade {
 namespace {
@@ -148,7 +148,7 @@ void Session::run(const OpenRequest& request) {
   TunableProcessor* const tunable = processor.get();
   state_.source = info;
   state_.phase = SessionState::Phase::open;
-  Pipeline pipeline(std::make_unique<PlayedSource>(std::move(source), playback_, request.range),
+  Pipeline pipeline(std::make_unique<PacedSource>(std::move(source), playback_, request.range),
                     std::move(processor), std::move(options));
   pipeline_ = &pipeline;
   processor_ = tunable;

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "pipeline/pipeline.hpp"
-#include "pipeline/playback.hpp"
+#include "pipeline/playback_controls.hpp"
 #include "ui/tunable_processor.hpp"
 #include "ui/view_result.hpp"
 
@@ -74,8 +74,8 @@ class Session {
   /// a row only the newest is computed. Returns the generation, which the results of it carry.
   std::int64_t set_wishes(const Wishes& wishes);
 
-  Playback& playback() { return *playback_; }
-  const Playback& playback() const { return *playback_; }
+  PlaybackControls& playback() { return *playback_; }
+  const PlaybackControls& playback() const { return *playback_; }
 
   SessionState state() const;
 
@@ -103,7 +103,7 @@ class Session {
 
   const Open open_;
   const std::function<void()> wake_;
-  const std::shared_ptr<Playback> playback_ = std::make_shared<Playback>();
+  const std::shared_ptr<PlaybackControls> playback_ = std::make_shared<PlaybackControls>();
   mutable std::mutex mutex_;
   std::condition_variable_any asked_;
   // All guarded by mutex_:

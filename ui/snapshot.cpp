@@ -4,10 +4,10 @@
 
 #include <fmt/format.h>
 
-#include "app/fixations_json.hpp"
-#include "app/frame_writer.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
+#include "output/fixations_json.hpp"
+#include "output/frame_writer.hpp"
 
 namespace saccade {
 namespace fs = std::filesystem;

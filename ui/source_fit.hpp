@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "pipeline/frame_source.hpp"
+#include "core/frame_source.hpp"
 #include "ui/tuning.hpp"
 
 namespace saccade {

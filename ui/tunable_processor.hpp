@@ -15,7 +15,7 @@ namespace saccade {
 struct Wishes {
   Settings a;                 ///< its intrinsics, if there are any, take the place of the frame's
   std::optional<Settings> b;  ///< a second computation of the same frame
-  SaliencyWants wants;        ///< by-products of both, where the model has them
+  RequestedOutputs wants;     ///< by-products of both, where the model has them
 };
 
 /// A processor whose settings may change between frames: each frame is computed with the newest wishes, and

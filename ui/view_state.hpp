@@ -10,7 +10,7 @@
 
 #include <opencv2/core.hpp>
 
-#include "ui/overlay.hpp"
+#include "output/overlay.hpp"
 #include "ui/point_cloud.hpp"
 #include "ui/tuning.hpp"
 

@@ -9,7 +9,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "core/error.hpp"
-#include "drivers/open_source.hpp"
+#include "sources/open_source.hpp"
 
 namespace saccade {
 namespace {

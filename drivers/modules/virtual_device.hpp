@@ -9,9 +9,9 @@
 #include <thread>
 #include <vector>
 
+#include "core/frame_source.hpp"
 #include "drivers/modules/module_device.hpp"
 #include "drivers/modules/virtual_spec.hpp"
-#include "pipeline/frame_source.hpp"
 
 namespace saccade {
 

@@ -13,11 +13,11 @@
 
 #include "app/options.hpp"
 #include "core/error.hpp"
-#include "drivers/synthetic_source.hpp"
 #include "pipeline/processor.hpp"
 #include "pipeline/stage_statistics.hpp"
 #include "saliency/kernels.hpp"
 #include "saliency/reference.hpp"
+#include "sources/synthetic_source.hpp"
 
 namespace saccade {
 namespace {

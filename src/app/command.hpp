@@ -2,8 +2,8 @@
 
 #include <filesystem>
 
+#include "core/frame_source.hpp"
 #include "core/settings.hpp"
-#include "pipeline/frame_source.hpp"
 
 namespace saccade {
 

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "drivers/openni2_devices.hpp"
+#include "drivers/openni2/openni2_devices.hpp"
 
 namespace saccade {
 namespace {

@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
-#include "drivers/openni2_devices.hpp"
-#include "drivers/openni2_installation.hpp"
-#include "drivers/usb_sensors.hpp"
+#include "drivers/openni2/openni2_devices.hpp"
+#include "drivers/openni2/openni2_installation.hpp"
+#include "drivers/openni2/usb_sensors.hpp"
 
 namespace saccade {
 

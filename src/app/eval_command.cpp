@@ -19,13 +19,13 @@
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "core/png.hpp"
-#include "drivers/open_source.hpp"
 #include "eval/contact_sheet.hpp"
 #include "eval/figure.hpp"
 #include "eval/page.hpp"
 #include "eval/report.hpp"
 #include "eval/result_file.hpp"
 #include "pipeline/processor.hpp"
+#include "sources/open_source.hpp"
 
 namespace saccade {
 namespace fs = std::filesystem;

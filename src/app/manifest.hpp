@@ -8,8 +8,8 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "core/frame_source.hpp"
 #include "core/settings.hpp"
-#include "pipeline/frame_source.hpp"
 #include "pipeline/ledger.hpp"
 #include "pipeline/stage_statistics.hpp"
 

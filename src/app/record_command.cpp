@@ -26,9 +26,9 @@
 #include "app/options.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
-#include "drivers/open_source.hpp"
 #include "oni/recorder.hpp"
-#include "pipeline/state_watch.hpp"
+#include "pipeline/source_state_notifier.hpp"
+#include "sources/open_source.hpp"
 
 namespace saccade {
 namespace fs = std::filesystem;
@@ -90,7 +90,7 @@ class RecordRun {
   }
 
   void copy_frames(FrameSource& source, OniRecorder& recorder) {
-    StateWatch state_watch(source, [this](const SourceState& state) {
+    SourceStateNotifier state_watch(source, [this](const SourceState& state) {
       clear_line();
       tell_state(state);
     });

@@ -15,18 +15,18 @@
 #include <opencv2/core.hpp>
 
 #include "app/command.hpp"
-#include "app/fixations_json.hpp"
-#include "app/frame_writer.hpp"
 #include "app/interrupt.hpp"
 #include "app/manifest.hpp"
 #include "app/options.hpp"
 #include "app/progress.hpp"
-#include "app/writer_pool.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
-#include "drivers/open_source.hpp"
 #include "models/model.hpp"
+#include "output/fixations_json.hpp"
+#include "output/frame_writer.hpp"
+#include "output/writer_pool.hpp"
 #include "pipeline/pipeline.hpp"
+#include "sources/open_source.hpp"
 
 namespace saccade {
 namespace fs = std::filesystem;

@@ -11,7 +11,7 @@
 #include "app/options.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
-#include "drivers/open_source.hpp"
+#include "sources/open_source.hpp"
 #include "ui/viewer/viewer.hpp"
 
 namespace saccade {

@@ -10,7 +10,7 @@
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "eval/hit_ratio.hpp"
-#include "ui/overlay.hpp"
+#include "output/overlay.hpp"
 
 namespace saccade {
 namespace fs = std::filesystem;
@@ -92,7 +92,8 @@ cv::Mat3b draw_example(const Frame& frame, const Look& look, const std::vector<E
     shown.fixations.push_back({.row = point.row, .col = point.col, .position_mm = {}, .proto_object = {}});
   }
   Frame outlined = frame;
-  outlined.colour = draw_overlay(frame, look.maps.master, {}, {.outlines = false, .marks = false, .path = false});
+  outlined.colour =
+      draw_overlay(frame, look.maps.master, {}, {.outlines = false, .marks = false, .path = false});
   draw_objects(outlined.colour, frame.truth.labels,
                {points.begin(), points.begin() + static_cast<std::ptrdiff_t>(shown.fixations.size())});
   cv::Mat3b picture =

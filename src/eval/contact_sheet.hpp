@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "core/frame_source.hpp"
 #include "eval/evaluator.hpp"
-#include "pipeline/frame_source.hpp"
 
 namespace saccade {
 

@@ -31,7 +31,7 @@ void begin(const Frame& frame, SaliencyMaps& maps) {
 
 }  // namespace
 
-void RandomModel::compute(const Frame& frame, SaliencyWants, SaliencyMaps& maps, StageTimes& times) {
+void RandomModel::compute(const Frame& frame, RequestedOutputs, SaliencyMaps& maps, StageTimes& times) {
   const StageTimer timer(times, Stage::symmetry);
   begin(frame, maps);
   const std::uint64_t seed = mix(static_cast<std::uint64_t>(frame.index));
@@ -45,7 +45,7 @@ void RandomModel::compute(const Frame& frame, SaliencyWants, SaliencyMaps& maps,
   });
 }
 
-void CentreModel::compute(const Frame& frame, SaliencyWants, SaliencyMaps& maps, StageTimes& times) {
+void CentreModel::compute(const Frame& frame, RequestedOutputs, SaliencyMaps& maps, StageTimes& times) {
   const StageTimer timer(times, Stage::symmetry);
   begin(frame, maps);
   const cv::Size size = frame.size();

@@ -75,7 +75,8 @@ float CombinedModel::trust_in_3d(const cv::Mat1f& depth_mm) {
   return 1 / (1 + (x * x) * (x * x));
 }
 
-void CombinedModel::compute(const Frame& frame, SaliencyWants wants, SaliencyMaps& maps, StageTimes& times) {
+void CombinedModel::compute(const Frame& frame, RequestedOutputs wants, SaliencyMaps& maps,
+                            StageTimes& times) {
   itti_->compute(frame, {}, maps_itti_, times);
   symmetry2d_->compute(frame, {}, maps2d_, times);
   symmetry3d_.compute(frame.depth_mm, frame.intrinsics, {.levels = true, .normals = wants.normals}, maps3d_,

@@ -158,7 +158,7 @@ void IttiModel::add_channels() {
   }
 }
 
-void IttiModel::compute(const Frame& frame, SaliencyWants, SaliencyMaps& maps, StageTimes& times) {
+void IttiModel::compute(const Frame& frame, RequestedOutputs, SaliencyMaps& maps, StageTimes& times) {
   const StageTimer timer(times, Stage::symmetry);
   const cv::Mat3b& colour = colour_of(frame, name_);
   resize(colour.size());

@@ -13,16 +13,18 @@ namespace saccade {
 ///
 /// Where the article is open or cannot be followed to the letter:
 ///  - opponency is |RG(c) - RG(s)|; as printed, a centre would be compared with the negated surround;
-///  - orientations are the energy of a Gabor pair (period 7 px, sigma 7/3 px, no answer to a constant) on each
+///  - orientations are the energy of a Gabor pair (period 7 px, sigma 7/3 px, no answer to a constant) on
+///  each
 ///    level of the intensity pyramid;
 ///  - differences are lowered towards the border of the image (attenuate_border());
-///  - small images use finer levels, so that things as small as they show are still seen: all level numbers go
-///    down by one where the shorter side is below 384 px, by two below 192 px. Sides never go below one pixel,
-///    so that any size can be looked at.
+///  - small images use finer levels, so that things as small as they show are still seen: all level numbers
+///  go
+///    down by one where the shorter side is below 384 px, by two below 192 px. Sides never go below one
+///    pixel, so that any size can be looked at.
 class IttiModel : public SaliencyModel {
  public:
   IttiModel(const char* name, bool orientation_only, WorkerPool& pool);
-  void compute(const Frame& frame, SaliencyWants wants, SaliencyMaps& maps, StageTimes& times) override;
+  void compute(const Frame& frame, RequestedOutputs wants, SaliencyMaps& maps, StageTimes& times) override;
 
  private:
   static constexpr int kOrientations = 4, kCentres = 3, kSurrounds = 2, kLevels = 9;

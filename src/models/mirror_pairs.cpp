@@ -81,7 +81,7 @@ void MirrorPairModel::for_bands(Job job) {
   pool_.for_each(bands, std::ref(band));
 }
 
-void MirrorPairModel::compute(const Frame& frame, SaliencyWants, SaliencyMaps& maps, StageTimes& times) {
+void MirrorPairModel::compute(const Frame& frame, RequestedOutputs, SaliencyMaps& maps, StageTimes& times) {
   const StageTimer timer(times, Stage::symmetry);
   const cv::Mat3b& colour = colour_of(frame, name_);
   resize(colour.size());

@@ -61,7 +61,7 @@ void Radial2dModel::vote(int radius, Votes& votes) const {
                    cv::BORDER_CONSTANT);
 }
 
-void Radial2dModel::compute(const Frame& frame, SaliencyWants, SaliencyMaps& maps, StageTimes& times) {
+void Radial2dModel::compute(const Frame& frame, RequestedOutputs, SaliencyMaps& maps, StageTimes& times) {
   const StageTimer timer(times, Stage::symmetry);
   find_gradient(colour_of(frame, "radial2d"));
   const auto job = [&](int i, int) {  // the widest blur first

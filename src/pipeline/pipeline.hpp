@@ -11,14 +11,14 @@
 #include <thread>
 #include <vector>
 
-#include "pipeline/frame_source.hpp"
+#include "core/frame_source.hpp"
 #include "pipeline/ledger.hpp"
 #include "pipeline/mailbox.hpp"
 #include "pipeline/processor.hpp"
 #include "pipeline/result.hpp"
 #include "pipeline/ring.hpp"
+#include "pipeline/source_state_notifier.hpp"
 #include "pipeline/stage_statistics.hpp"
-#include "pipeline/state_watch.hpp"
 
 namespace saccade {
 
@@ -42,7 +42,8 @@ struct PipelineOptions {
   int slots = 4;
   /// Called on the capture thread for each frame that cannot be used.
   std::function<void(std::int64_t index, const std::string& reason)> on_rejected;
-  /// Called on the capture thread with what is new of a source (StateWatch): its device is lost, or back.
+  /// Called on the capture thread with what is new of a source (SourceStateNotifier): its device is lost, or
+  /// back.
   std::function<void(const SourceState&)> on_state;
 };
 
@@ -114,8 +115,8 @@ class Pipeline {
   std::mutex give_back_mutex_;  // any thread gives slots back; the ring allows one producer at a time
   std::atomic<bool> stopping_ = false;
   LedgerCounters counters_;
-  std::int64_t results_ = 0;  // compute thread only
-  StateWatch state_watch_;    // capture thread only
+  std::int64_t results_ = 0;         // compute thread only
+  SourceStateNotifier state_watch_;  // capture thread only
   std::mutex error_mutex_;
   std::exception_ptr error_;   // guarded by error_mutex_; the first
   bool ended_ = false;         // consumer's thread only

@@ -24,7 +24,7 @@ class ModelProcessor : public FrameProcessor {
   WorkerPool pool_;
   std::unique_ptr<SaliencyModel> model_;
   std::unique_ptr<AttentionSelector> selector_;
-  SaliencyWants wants_;
+  RequestedOutputs wants_;
 };
 
 }  // namespace

@@ -56,7 +56,7 @@ struct Symmetry3d::State {
   void find_points(bool normals_wanted);
   void find_symmetry();
   void add_levels(cv::Mat1f& master);
-  void copy_wanted(SaliencyWants wants, SaliencyMaps& maps) const;
+  void copy_wanted(RequestedOutputs wants, SaliencyMaps& maps) const;
 };
 
 void Symmetry3d::State::resize(cv::Size new_size) {
@@ -153,7 +153,7 @@ void Symmetry3d::State::add_levels(cv::Mat1f& master) {
   }
 }
 
-void Symmetry3d::State::copy_wanted(SaliencyWants wants, SaliencyMaps& maps) const {
+void Symmetry3d::State::copy_wanted(RequestedOutputs wants, SaliencyMaps& maps) const {
   maps.levels.resize(wants.levels ? levels.size() - static_cast<std::size_t>(params.first_level) : 0);
   for (std::size_t i = 0; i < maps.levels.size(); ++i) {
     const LevelPlanes& level = levels[i + static_cast<std::size_t>(params.first_level)];
@@ -175,7 +175,7 @@ Symmetry3d::Symmetry3d(const Symmetry3dParams& params, WorkerPool& pool, const s
 
 Symmetry3d::~Symmetry3d() = default;
 
-void Symmetry3d::compute(const cv::Mat1f& depth_mm, const Intrinsics& camera, SaliencyWants wants,
+void Symmetry3d::compute(const cv::Mat1f& depth_mm, const Intrinsics& camera, RequestedOutputs wants,
                          SaliencyMaps& maps, StageTimes& times) {
   if (!camera.valid())
     throw std::invalid_argument("Symmetry3d: intrinsics must be finite, focal lengths above 0");

@@ -14,7 +14,7 @@
 namespace saccade {
 
 /// Which by-products of the operator a caller wants besides the master map.
-struct SaliencyWants {
+struct RequestedOutputs {
   bool levels = false;   ///< the map of every level
   bool normals = false;  ///< the normals of level 0
 };
@@ -41,8 +41,8 @@ class Symmetry3d {
 
   /// depth_mm: H x W, 0 = no reading. Overwrites what `maps` holds, reusing its memory, and adds to `times`.
   /// Throws as check_levels().
-  void compute(const cv::Mat1f& depth_mm, const Intrinsics& camera, SaliencyWants wants, SaliencyMaps& maps,
-               StageTimes& times);
+  void compute(const cv::Mat1f& depth_mm, const Intrinsics& camera, RequestedOutputs wants,
+               SaliencyMaps& maps, StageTimes& times);
 
  private:
   struct State;

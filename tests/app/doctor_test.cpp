@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/file.hpp"
-#include "subprocess.hpp"
+#include "tests/support/subprocess.hpp"
 
 namespace saccade {
 namespace {

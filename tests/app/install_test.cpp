@@ -6,7 +6,7 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
-#include "subprocess.hpp"
+#include "tests/support/subprocess.hpp"
 
 namespace saccade {
 namespace {

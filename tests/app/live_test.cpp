@@ -13,7 +13,7 @@
 
 #include "oni/check.hpp"
 #include "oni/recording.hpp"
-#include "subprocess.hpp"
+#include "tests/support/subprocess.hpp"
 
 namespace saccade {
 namespace {

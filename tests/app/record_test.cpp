@@ -8,11 +8,11 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
-#include "drivers/open_source.hpp"
 #include "oni/check.hpp"
 #include "oni/recording.hpp"
 #include "oni/repair.hpp"
-#include "subprocess.hpp"
+#include "sources/open_source.hpp"
+#include "tests/support/subprocess.hpp"
 
 namespace saccade {
 namespace {

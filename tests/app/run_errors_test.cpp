@@ -5,7 +5,7 @@
 
 #include "core/file.hpp"
 #include "core/png.hpp"
-#include "subprocess.hpp"
+#include "tests/support/subprocess.hpp"
 
 namespace saccade {
 namespace {

@@ -11,7 +11,7 @@
 #include "core/file.hpp"
 #include "core/png.hpp"
 #include "saliency/symmetry3d.hpp"
-#include "subprocess.hpp"
+#include "tests/support/subprocess.hpp"
 
 namespace saccade {
 namespace {

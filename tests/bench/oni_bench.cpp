@@ -15,9 +15,9 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
-#include "drivers/oni_source.hpp"
 #include "oni/writer.hpp"
-#include "tests/drivers/no_wait.hpp"
+#include "sources/oni_source.hpp"
+#include "tests/support/no_wait.hpp"
 
 namespace {
 

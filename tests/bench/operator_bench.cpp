@@ -9,9 +9,9 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "core/error.hpp"
-#include "drivers/synthetic_source.hpp"
 #include "saliency/reference.hpp"
 #include "saliency/symmetry3d.hpp"
+#include "sources/synthetic_source.hpp"
 
 namespace saccade {
 namespace {

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
-#include "tests/folder_test.hpp"
+#include "tests/support/folder_test.hpp"
 
 namespace saccade {
 namespace {

@@ -1,4 +1,4 @@
-#include "drivers/frame_pairing.hpp"
+#include "drivers/openni2/frame_pairing.hpp"
 
 #include <optional>
 #include <set>

@@ -14,7 +14,7 @@
 #include "core/file.hpp"
 #include "drivers/modules/kinect_depth.hpp"
 #include "oni/bytes.hpp"
-#include "tests/folder_test.hpp"
+#include "tests/support/folder_test.hpp"
 
 namespace saccade {
 namespace {

@@ -1,6 +1,6 @@
 // The live source on the virtual device, in this process: what it gives, its controls, and its end. Losses
 // and other faults are ordered for a whole process, so tests/app/live_test.cpp has them.
-#include "drivers/openni2_source.hpp"
+#include "drivers/openni2/openni2_source.hpp"
 
 #include <chrono>
 #include <cmath>
@@ -13,10 +13,10 @@
 #include <opencv2/core.hpp>
 
 #include "core/error.hpp"
-#include "drivers/open_source.hpp"
-#include "drivers/openni2_devices.hpp"
-#include "drivers/openni2_modes.hpp"
-#include "no_wait.hpp"
+#include "drivers/openni2/openni2_devices.hpp"
+#include "drivers/openni2/openni2_modes.hpp"
+#include "sources/open_source.hpp"
+#include "tests/support/no_wait.hpp"
 
 namespace saccade {
 namespace {

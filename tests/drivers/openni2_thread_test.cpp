@@ -1,4 +1,4 @@
-#include "drivers/openni2_thread.hpp"
+#include "drivers/openni2/openni2_thread.hpp"
 
 #include <stdexcept>
 #include <thread>

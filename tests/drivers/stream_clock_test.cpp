@@ -1,4 +1,4 @@
-#include "drivers/stream_clock.hpp"
+#include "drivers/openni2/stream_clock.hpp"
 
 #include <gtest/gtest.h>
 

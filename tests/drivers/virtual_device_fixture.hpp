@@ -9,9 +9,9 @@
 
 #include <gmock/gmock.h>
 
-#include "drivers/open_source.hpp"
-#include "no_wait.hpp"
 #include "openni_device.hpp"
+#include "sources/open_source.hpp"
+#include "tests/support/no_wait.hpp"
 
 namespace saccade {
 

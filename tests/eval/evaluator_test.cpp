@@ -2,9 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include "drivers/synthetic_source.hpp"
 #include "eval/hit_ratio.hpp"
 #include "saliency/symmetry3d.hpp"
+#include "sources/synthetic_source.hpp"
 
 namespace saccade {
 namespace {

@@ -8,7 +8,7 @@
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "samples.hpp"
-#include "tests/folder_test.hpp"
+#include "tests/support/folder_test.hpp"
 
 namespace saccade {
 namespace {

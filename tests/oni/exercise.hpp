@@ -9,10 +9,10 @@
 #include <string>
 
 #include "core/error.hpp"
-#include "drivers/oni_source.hpp"
 #include "oni/check.hpp"
 #include "oni/info.hpp"
 #include "oni/recording.hpp"
+#include "sources/oni_source.hpp"
 
 namespace saccade {
 

@@ -1,6 +1,5 @@
 #pragma once
 
-
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
@@ -15,7 +14,7 @@
 #include "oni/properties.hpp"
 #include "oni/record_writer.hpp"
 #include "oni/writer.hpp"
-#include "tests/folder_test.hpp"
+#include "tests/support/folder_test.hpp"
 
 namespace saccade {
 

@@ -39,7 +39,7 @@ Symmetry3dParams three_levels() {
 }
 
 SaliencyMaps compute(const cv::Mat1f& depth, const Symmetry3dParams& params, int workers = 1,
-                     const std::string& simd = "auto", SaliencyWants wants = {}) {
+                     const std::string& simd = "auto", RequestedOutputs wants = {}) {
   WorkerPool pool(workers);
   Symmetry3d op(params, pool, simd);
   SaliencyMaps maps;
@@ -90,7 +90,7 @@ TEST(Symmetry3d, AllocatesNothingAfterTheFirstFrame) {
   Symmetry3d op(three_levels(), pool);
   SaliencyMaps maps;
   StageTimes times;
-  const SaliencyWants wants{.levels = true, .normals = true};
+  const RequestedOutputs wants{.levels = true, .normals = true};
   op.compute(first, camera_for(first.size()), wants, maps, times);
   const uchar* master = maps.master.data;
   const long before = allocations;

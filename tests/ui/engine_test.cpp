@@ -51,7 +51,7 @@ void expect_same(const Computed& x, const Computed& y) {
   EXPECT_EQ(x.outlines.size(), y.outlines.size());
 }
 
-constexpr SaliencyWants kAll = {.levels = true, .normals = true};
+constexpr RequestedOutputs kAll = {.levels = true, .normals = true};
 
 TEST(Engine, WhatIsKeptEqualsWhatIsComputed) {
   WorkerPool pool(2);

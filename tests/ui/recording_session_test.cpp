@@ -5,8 +5,8 @@
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
-#include "drivers/oni_source.hpp"
-#include "tests/folder_test.hpp"
+#include "sources/oni_source.hpp"
+#include "tests/support/folder_test.hpp"
 
 namespace saccade {
 namespace {

@@ -3,10 +3,10 @@
 #include <gtest/gtest.h>
 #include <opencv2/imgcodecs.hpp>
 
-#include "app/fixations_json.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
-#include "tests/folder_test.hpp"
+#include "output/fixations_json.hpp"
+#include "tests/support/folder_test.hpp"
 
 namespace saccade {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "core/error.hpp"
 #include "core/file.hpp"
-#include "tests/folder_test.hpp"
+#include "tests/support/folder_test.hpp"
 
 namespace saccade {
 namespace {

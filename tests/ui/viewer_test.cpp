@@ -10,8 +10,8 @@
 
 #include "core/file.hpp"
 #include "core/png.hpp"
-#include "drivers/oni_source.hpp"
-#include "ui/overlay.hpp"
+#include "output/overlay.hpp"
+#include "sources/oni_source.hpp"
 #include "x_desktop.hpp"
 #include "x_program.hpp"
 

@@ -11,7 +11,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "tests/folder_test.hpp"
+#include "tests/support/folder_test.hpp"
 #include "x_server.hpp"
 
 namespace saccade {

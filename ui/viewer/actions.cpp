@@ -21,7 +21,7 @@ void Viewer::act(Action action) {
 
 bool Viewer::act_on_playback(Action action) {
   constexpr std::int64_t kJump = 10, kEnd = std::int64_t{1} << 40;
-  Playback& playback = session_.playback();
+  PlaybackControls& playback = session_.playback();
   const PlaybackState now = playback.state();
   switch (action) {
     case Action::play_pause:

@@ -5,7 +5,7 @@
 
 #include <imgui.h>
 
-#include "ui/colour_map.hpp"
+#include "output/colour_map.hpp"
 #include "ui/picture_view.hpp"
 #include "ui/viewer/view_context.hpp"
 

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
-#include "drivers/openni2_devices.hpp"
+#include "drivers/openni2/openni2_devices.hpp"
 #include "ui/sensor_wishes.hpp"
 #include "ui/snapshot.hpp"
 #include "ui/viewer/panels.hpp"

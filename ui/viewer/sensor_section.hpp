@@ -43,7 +43,7 @@ class SensorSection {
   const std::filesystem::path folder_;
   // Shared with the capture thread, which may still be in it when a recording or the viewer ends.
   const std::shared_ptr<RecordingSession> recording_ = std::make_shared<RecordingSession>();
-  Playback* tapped_ = nullptr;
+  PlaybackControls* tapped_ = nullptr;
   DeviceWatch devices_;
   std::future<std::optional<std::uint64_t>> looking_;
   std::chrono::steady_clock::time_point looked_{};

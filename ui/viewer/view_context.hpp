@@ -35,7 +35,7 @@ struct ViewContext {
   // Of the source that is open:
   Timeline timeline;
   StageHistory history;
-  SaliencyWants wants;  ///< by-products that a panel needs; cleared before each frame
+  RequestedOutputs wants;  ///< by-products that a panel needs; cleared before each frame
 
   RecordingStatus recording;  ///< of the recording that runs, or of the last one
   std::string snapshot;       ///< folder of the last snapshot; empty = there was none

@@ -1,0 +1,53 @@
+#include "drivers/openni2/openni2_installation.hpp"
+
+#include <dlfcn.h>
+
+#include <algorithm>
+
+#include <OpenNI.h>
+#include <fmt/format.h>
+
+namespace saccade {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr std::string_view kPrefix = "lib", kSuffix = ".so.0";  // as OpenNI2 looks for them
+
+std::string load_problem(const fs::path& module) {
+  void* handle = ::dlopen(module.c_str(), RTLD_NOW | RTLD_LOCAL);
+  if (handle == nullptr) return ::dlerror();
+  const bool is_driver = ::dlsym(handle, "oniDriverCreate") != nullptr;
+  ::dlclose(handle);
+  return is_driver ? "" : "it is no driver module";
+}
+
+}  // namespace
+
+const OpenNi2Installation::Module* OpenNi2Installation::module(const std::string& name) const {
+  const auto found =
+      std::find_if(modules.begin(), modules.end(), [&](const auto& m) { return m.name == name; });
+  return found == modules.end() ? nullptr : &*found;
+}
+
+OpenNi2Installation find_openni2() {
+  OpenNi2Installation found;
+  const openni::Version version = openni::OpenNI::getVersion();
+  found.version =
+      fmt::format("{}.{}.{}.{}", version.major, version.minor, version.maintenance, version.build);
+  Dl_info info{};
+  if (::dladdr(::dlsym(RTLD_DEFAULT, "oniGetVersion"), &info) == 0 || info.dli_fname == nullptr) return found;
+  found.library = fs::absolute(info.dli_fname);
+  found.driver_folder = found.library.parent_path() / "OpenNI2" / "Drivers";
+  std::error_code code;
+  for (const auto& entry : fs::directory_iterator(found.driver_folder, code)) {
+    const std::string file = entry.path().filename().string();
+    if (!file.starts_with(kPrefix) || !file.ends_with(kSuffix)) continue;
+    found.modules.push_back({file.substr(kPrefix.size(), file.size() - kPrefix.size() - kSuffix.size()),
+                             entry.path(), load_problem(entry.path())});
+  }
+  std::sort(found.modules.begin(), found.modules.end(),
+            [](const auto& a, const auto& b) { return a.name < b.name; });
+  return found;
+}
+
+}  // namespace saccade

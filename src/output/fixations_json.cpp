@@ -1,0 +1,40 @@
+#include "output/fixations_json.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace saccade {
+namespace {
+
+std::string quoted(const std::string& text) {
+  return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+std::string list_mm(const cv::Point3f& p) { return fmt::format("[{},{},{}]", p.x, p.y, p.z); }
+
+}  // namespace
+
+// Written by hand, since a float's shortest text ("0.1") is wanted and a JSON library prints its double.
+std::string fixations_json(const Result& result) {
+  const Attention& attention = result.attention;
+  std::string line = fmt::format(R"({{"frame":{},"name":{},"timestamp_us":{},"fixations":[)",
+                                 result.frame.index, quoted(result.frame.name), result.frame.timestamp_us);
+  int rank = 0;
+  for (const Fixation& f : attention.fixations) {
+    line += fmt::format(R"({}{{"rank":{},"row":{},"col":{},"saliency":{},"x_mm":{},"y_mm":{},"z_mm":{})",
+                        rank > 0 ? "," : "", rank + 1, f.row, f.col, f.saliency, f.position_mm.x,
+                        f.position_mm.y, f.position_mm.z);
+    const ProtoObject& object = f.proto_object;
+    if (object.pixels > 0)
+      line += fmt::format(R"(,"pixels":{},"centroid_mm":{},"extent_mm":{})", object.pixels,
+                          list_mm(object.centroid_mm), list_mm(object.extent_mm));
+    line += '}';
+    ++rank;
+  }
+  line += ']';
+  if (!attention.ended_early.empty())
+    line += fmt::format(R"(,"ended_early":{})", quoted(attention.ended_early));
+  return line + '}';
+}
+
+}  // namespace saccade

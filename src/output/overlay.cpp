@@ -1,0 +1,185 @@
+#include "output/overlay.hpp"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <opencv2/imgproc.hpp>
+
+namespace saccade {
+namespace {
+
+const cv::Scalar kMark(255, 255, 255), kFirstMark(80, 255, 80), kShadow(0, 0, 0);
+
+// Marks and lines grow with the picture: 1 at 640 pixels wide.
+double mark_size(const cv::Mat3b& picture) { return std::clamp(picture.cols / 640.0, 0.5, 4.0); }
+
+// Of each object the part of the picture that it is in, with room for the closing around it: one look at the
+// masks for all of them.
+std::vector<cv::Rect> object_boxes(const Attention& attention) {
+  constexpr int kRoom = 4;  // there and back by the brush's half
+  struct Extent {
+    int left = std::numeric_limits<int>::max(), right = -1, top = 0, bottom = -1;
+  };
+  std::vector<Extent> extents(attention.fixations.size());
+  for (int r = 0; r < attention.masks.rows; ++r) {
+    const std::uint16_t* ranks = attention.masks[r];
+    for (int c = 0; c < attention.masks.cols; ++c) {
+      if (ranks[c] == 0 || ranks[c] > extents.size()) continue;
+      Extent& e = extents[ranks[c] - 1U];
+      if (e.bottom < 0) e.top = r;
+      e.bottom = r;
+      e.left = std::min(e.left, c);
+      e.right = std::max(e.right, c);
+    }
+  }
+  std::vector<cv::Rect> boxes;
+  const cv::Rect whole({}, attention.masks.size());
+  for (const Extent& e : extents)
+    boxes.push_back(e.bottom < 0 ? cv::Rect()
+                                 : cv::Rect(cv::Point(e.left - kRoom, e.top - kRoom),
+                                            cv::Point(e.right + 1 + kRoom, e.bottom + 1 + kRoom)) &
+                                       whole);
+  return boxes;
+}
+
+void draw_outlines(cv::Mat3b& picture, const Attention& attention) {
+  const int line = std::max(1, cvRound(mark_size(picture)));
+  for (const Outline& outline : proto_outlines(attention))
+    cv::polylines(picture, outline.points, true, outline.rank == 1 ? kFirstMark : kMark, line, cv::LINE_AA);
+}
+
+void draw_label(cv::Mat3b& picture, const std::string& text, cv::Point centre, double size,
+                const cv::Scalar& colour) {
+  int baseline = 0;
+  const double scale = 0.45 * size;
+  const cv::Size box = cv::getTextSize(text, cv::FONT_HERSHEY_SIMPLEX, scale, 1, &baseline);
+  const cv::Point origin(centre.x - box.width / 2, centre.y + box.height / 2);
+  cv::putText(picture, text, origin, cv::FONT_HERSHEY_SIMPLEX, scale, colour, std::max(1, cvRound(size)),
+              cv::LINE_AA);
+}
+
+void draw_path(cv::Mat3b& picture, const std::vector<Fixation>& fixations) {
+  const int line = std::max(1, cvRound(mark_size(picture)));
+  for (std::size_t i = 1; i < fixations.size(); ++i)
+    cv::line(picture, {fixations[i - 1].col, fixations[i - 1].row}, {fixations[i].col, fixations[i].row},
+             kMark, line, cv::LINE_AA);
+}
+
+void draw_marks(cv::Mat3b& picture, const std::vector<Fixation>& fixations) {
+  const double size = mark_size(picture);
+  const int radius = cvRound(11 * size), line = std::max(1, cvRound(size));
+  for (std::size_t i = fixations.size(); i-- > 0;) {  // the first on top
+    const cv::Point centre(fixations[i].col, fixations[i].row);
+    const cv::Scalar& colour = i == 0 ? kFirstMark : kMark;
+    cv::circle(picture, centre, radius, kShadow, cv::FILLED, cv::LINE_AA);
+    cv::circle(picture, centre, radius, colour, line, cv::LINE_AA);
+    draw_label(picture, std::to_string(i + 1), centre, size, colour);
+  }
+}
+
+}  // namespace
+
+std::vector<Outline> proto_outlines(const Attention& attention) {
+  std::vector<Outline> outlines;
+  if (attention.masks.empty()) return outlines;
+  const cv::Mat brush = cv::getStructuringElement(cv::MORPH_ELLIPSE, {5, 5});
+  const std::vector<cv::Rect> boxes = object_boxes(attention);
+  for (std::size_t rank = attention.fixations.size(); rank > 0; --rank) {
+    const cv::Rect& box = boxes[rank - 1];
+    if (box.empty()) continue;
+    cv::Mat1b mask;
+    cv::compare(attention.masks(box), static_cast<double>(rank), mask, cv::CMP_EQ);
+    cv::morphologyEx(mask, mask, cv::MORPH_CLOSE, brush);
+    std::vector<std::vector<cv::Point>> contours;
+    cv::findContours(mask, contours, cv::RETR_EXTERNAL, cv::CHAIN_APPROX_SIMPLE, box.tl());
+    for (auto& points : contours) outlines.push_back({rank, std::move(points)});
+  }
+  return outlines;
+}
+
+cv::Mat1f smooth_for_looking(const cv::Mat1f& saliency) {
+  constexpr double kSigmaOfWidth = 1.0 / 200;
+  cv::Mat1f smooth;
+  cv::GaussianBlur(saliency, smooth, {}, std::max(1.0, saliency.cols * kSigmaOfWidth));
+  return smooth;
+}
+
+ValueRange shown_range(const cv::Mat1f& smooth, const MapStyle& style) {
+  if (style.range) return *style.range;
+  double largest = 0;
+  cv::minMaxLoc(smooth, nullptr, &largest);
+  return {0, static_cast<float>(largest)};
+}
+
+cv::Mat1b shown_strength(const cv::Mat1f& smooth, const MapStyle& style) {
+  const ValueRange range = shown_range(smooth, style);
+  const double low = static_cast<double>(range.low), span = static_cast<double>(range.high) - low;
+  if (!(span > 0)) return cv::Mat1b(smooth.size(), std::uint8_t{0});
+  cv::Mat1f place;
+  smooth.convertTo(place, CV_32F, 1 / span, -low / span);
+  cv::Mat1f root;
+  cv::sqrt(cv::max(place, 0.0F), root);
+  cv::Mat1b strength;
+  root.convertTo(strength, CV_8U, 255);
+  if (style.threshold > 0) strength.setTo(0, place < style.threshold);
+  return strength;
+}
+
+std::optional<ValueRange> shown_depth_range(const Frame& frame, const OverlayStyle& style) {
+  if (!frame.colour.empty() && style.background != Background::depth) return std::nullopt;
+  return style.depth.range_mm ? style.depth.range_mm : percentile_range(frame.depth_mm, 100);
+}
+
+cv::Mat3b draw_background(const Frame& frame, const OverlayStyle& style) {
+  if (frame.colour.empty() || style.background == Background::depth)
+    return depth_picture(frame.depth_mm, style.depth);
+  return frame.colour.clone();
+}
+
+void blend_map(cv::Mat3b& picture, const cv::Mat1b& strength, const MapStyle& style) {
+  if (strength.size() != picture.size())
+    throw std::invalid_argument("blend_map: picture and map differ in size");
+  const PaletteColours& colours = colours_of(style.palette);
+  struct Share {
+    int of_picture;
+    std::array<int, 3> of_map;  // premultiplied, with the half that rounds
+  };
+  std::array<Share, 256> shares;
+  for (int i = 0; i < 256; ++i) {
+    const int a = cvRound(style.opacity * i);
+    const cv::Vec3b& q = colours[static_cast<std::size_t>(i)];
+    shares[static_cast<std::size_t>(i)] = {255 - a, {q[0] * a + 127, q[1] * a + 127, q[2] * a + 127}};
+  }
+  for (int r = 0; r < picture.rows; ++r) {
+    const std::uint8_t* level = strength[r];
+    for (cv::Vec3b& p : std::span(picture[r], static_cast<std::size_t>(picture.cols))) {
+      const Share& share = shares[*level++];
+      for (int i = 0; i < 3; ++i)
+        p[i] = static_cast<std::uint8_t>(
+            (p[i] * share.of_picture + share.of_map[static_cast<std::size_t>(i)]) / 255);
+    }
+  }
+}
+
+void draw_attention(cv::Mat3b& picture, const Attention& attention, const OverlayStyle& style) {
+  if (style.outlines) draw_outlines(picture, attention);
+  if (style.path) draw_path(picture, attention.fixations);
+  if (style.marks) draw_marks(picture, attention.fixations);
+}
+
+cv::Mat3b draw_overlay(const Frame& frame, const cv::Mat1f& saliency, const Attention& attention,
+                       const OverlayStyle& style) {
+  cv::Mat3b picture = draw_background(frame, style);
+  if (style.map.opacity > 0)
+    blend_map(picture, shown_strength(smooth_for_looking(saliency), style.map), style.map);
+  draw_attention(picture, attention, style);
+  return picture;
+}
+
+}  // namespace saccade

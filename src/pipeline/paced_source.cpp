@@ -1,0 +1,221 @@
+#include "pipeline/paced_source.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+namespace saccade {
+namespace {
+
+using std::chrono::duration_cast;
+using std::chrono::microseconds;
+
+constexpr std::int64_t kLongestGap_us = 2'000'000;
+constexpr double kUsualRate_hz = 30;
+constexpr std::chrono::milliseconds kLateness{100};  // more than this is not caught up with
+
+}  // namespace
+
+PacedSource::PacedSource(std::unique_ptr<FrameSource> source, std::shared_ptr<PlaybackControls> playback,
+                         PlayRange range, std::shared_ptr<PlayClock> clock)
+    : source_(std::move(source)),
+      playback_(std::move(playback)),
+      range_(range),
+      clock_(clock ? std::move(clock) : std::make_shared<PlayClock>()) {
+  if (range_.start < 0 || range_.every < 1 || range_.limit < 0)
+    throw std::invalid_argument("PacedSource: start >= 0, every >= 1 and limit >= 0 expected");
+  end_ = info().frame_count.value_or(std::numeric_limits<std::int64_t>::max());
+  if (range_.limit > 0 && range_.limit <= (end_ - range_.start) / range_.every)
+    end_ = range_.start + range_.limit * range_.every;
+  next_ = range_.start;
+  at_next_ = next_ == 0;
+  const Lock lock(playback_->mutex_);
+  playback_->state_.position = -1;
+  playback_->state_.at_end = false;
+  playback_->wanted_.reset();
+  playback_->going_to_.reset();
+  playback_->again_ = false;
+  playback_->taken_ = playback_->rebase_ = true;
+}
+
+void PacedSource::seek(std::int64_t index) {
+  if (info().live) throw std::logic_error("a live source cannot seek");
+  playback_->seek(index);
+}
+
+void PacedSource::interrupt() noexcept {
+  {
+    const Lock lock(playback_->mutex_);
+    interrupted_ = true;
+  }
+  playback_->changed_.notify_all();
+  source_->interrupt();
+}
+
+ReadResult PacedSource::read(Frame& frame, std::chrono::milliseconds timeout) {
+  const Time deadline = clock_->now() + timeout;
+  Lock lock(playback_->mutex_);
+  return info().live ? read_live(lock, frame, deadline) : read_recorded(lock, frame, deadline);
+}
+
+ReadResult PacedSource::read_live(Lock& lock, Frame& frame, Time deadline) {
+  PlaybackControls& p = *playback_;
+  p.wanted_.reset();  // there is nowhere to go
+  while (!interrupted_) {
+    if (std::exchange(p.again_, false) && has_last_) {
+      copy_last(frame);
+      return {ReadStatus::frame, ""};
+    }
+    const Time now = clock_->now();
+    if (now >= deadline) break;
+    if (p.state_.paused && has_last_) {
+      clock_->wait(lock, p.changed_, deadline);
+      continue;
+    }
+    lock.unlock();
+    ReadResult result = source_->read(
+        ahead_,
+        std::max(duration_cast<std::chrono::milliseconds>(deadline - now), std::chrono::milliseconds(1)));
+    lock.lock();
+    return result.status == ReadStatus::frame ? give(lock, frame) : result;
+  }
+  return {ReadStatus::timeout, ""};
+}
+
+ReadResult PacedSource::read_recorded(Lock& lock, Frame& frame, Time deadline) {
+  PlaybackControls& p = *playback_;
+  while (!interrupted_) {
+    if (p.wanted_) go_to_wanted();
+    if (std::exchange(p.again_, false) && has_last_) {
+      copy_last(frame);
+      return {ReadStatus::frame, ""};
+    }
+    Time when = deadline;
+    if (p.state_.paused && !going_) {
+      // Only a button changes that.
+    } else if (!has_ahead_) {
+      const ReadResult result = next_ < end_ ? fetch(lock) : turn_at_end();
+      if (result.status == ReadStatus::frame) continue;
+      if (result.status == ReadStatus::rejected) frame.index = ahead_.index;
+      return result;
+    } else if (is_due(when)) {
+      return give(lock, frame);
+    }
+    if (clock_->now() >= deadline) break;
+    clock_->wait(lock, p.changed_, std::min(when, deadline));
+  }
+  return {ReadStatus::timeout, ""};
+}
+
+// What somebody wants to see comes next, at once.
+void PacedSource::go_to_wanted() {
+  PlaybackControls& p = *playback_;
+  const std::int64_t last = range_.start + (end_ - 1 - range_.start) / range_.every * range_.every;
+  const std::int64_t wanted = std::clamp(*std::exchange(p.wanted_, std::nullopt), range_.start, last);
+  const std::int64_t index = range_.start + (wanted - range_.start) / range_.every * range_.every;
+  going_ = true;
+  p.going_to_ = index;
+  p.rebase_ = true;
+  if (has_ahead_ && ahead_.index == index) return;
+  has_ahead_ = false;
+  at_next_ = at_next_ && next_ == index;
+  next_ = index;
+}
+
+// Reads the next frame of the range ahead, without the lock. `frame`: it is there, or there may be a new
+// wish.
+ReadResult PacedSource::fetch(Lock& lock) {
+  lock.unlock();
+  ReadResult result;
+  if (!std::exchange(at_next_, range_.every == 1)) source_->seek(next_);
+  result = source_->read(ahead_, std::chrono::milliseconds(0));
+  lock.lock();
+  switch (result.status) {
+    case ReadStatus::frame:
+      has_ahead_ = any_usable_ = true;
+      next_ += range_.every;
+      break;
+    case ReadStatus::rejected:
+      next_ += range_.every;
+      if (going_ && playback_->way_ < 0) {
+        next_ -= 2 * range_.every;
+        at_next_ = false;
+        if (next_ < range_.start) {  // nothing before it: stay where it was
+          going_ = false;
+          playback_->going_to_.reset();
+          next_ = std::max(playback_->state_.position, range_.start - range_.every) + range_.every;
+        }
+      }
+      break;
+    case ReadStatus::end:  // the recording is shorter than it says
+      end_ = next_;
+      result.status = ReadStatus::frame;
+      break;
+    case ReadStatus::timeout:
+      break;
+  }
+  return result;
+}
+
+// Behind the last frame: the next turn of the loop, or the player stops. `frame`: go on; `end`: there is
+// none.
+ReadResult PacedSource::turn_at_end() {
+  PlaybackControls& p = *playback_;
+  if (!any_usable_) return {ReadStatus::end, ""};
+  if (p.state_.loop && !p.state_.paused) {
+    any_usable_ = false;
+    next_ = range_.start;
+    at_next_ = false;
+  } else {
+    p.state_.paused = p.state_.at_end = true;
+    going_ = false;
+    p.going_to_.reset();
+  }
+  return {ReadStatus::frame, ""};
+}
+
+// Whether the frame read ahead may be given now; if only time is missing, `when` is set to when it may.
+bool PacedSource::is_due(Time& when) {
+  PlaybackControls& p = *playback_;
+  if (going_) return true;
+  const double speed = p.state_.speed;
+  due_ = clock_->now();
+  if (speed == 0) return p.taken_;
+  if (p.rebase_ || !has_last_) return true;
+  std::int64_t gap_us = ahead_.timestamp_us - last_.timestamp_us;
+  if (gap_us <= 0)  // the loop begins again
+    gap_us = static_cast<std::int64_t>(1e6 / (info().rate_hz > 0 ? info().rate_hz : kUsualRate_hz));
+  gap_us = std::min(gap_us, kLongestGap_us);
+  const Time due = last_due_ + microseconds(static_cast<std::int64_t>(static_cast<double>(gap_us) / speed));
+  when = due;
+  if (due > due_) return false;
+  if (due_ - due < kLateness) due_ = due;
+  return true;
+}
+
+ReadResult PacedSource::give(Lock& lock, Frame& frame) {
+  PlaybackControls& p = *playback_;
+  std::swap(ahead_, last_);
+  has_ahead_ = going_ = false;
+  has_last_ = true;
+  last_due_ = p.rebase_ ? clock_->now() : due_;
+  p.rebase_ = false;
+  p.state_.at_end = false;
+  p.state_.position = last_.index;
+  p.going_to_.reset();
+  copy_last(frame);
+  if (const auto tap = p.tap_) {
+    lock.unlock();
+    (*tap)(last_);
+    lock.lock();
+  }
+  return {ReadStatus::frame, ""};
+}
+
+void PacedSource::copy_last(Frame& frame) {
+  copy_frame(last_, frame);
+  playback_->taken_ = false;
+}
+
+}  // namespace saccade

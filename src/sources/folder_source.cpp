@@ -1,0 +1,189 @@
+#include "sources/folder_source.hpp"
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <stdexcept>
+
+#include <fmt/format.h>
+#include <opencv2/imgcodecs.hpp>
+
+#include "core/error.hpp"
+#include "core/file.hpp"
+#include "core/png.hpp"
+#include "sources/folder_listing.hpp"
+#include "sources/pcd.hpp"
+
+namespace saccade {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr int kSmallestSide = 8;
+
+// Why a depth image of this kind cannot be used; empty if it can.
+std::string depth_problem(const PngHeader& header) {
+  const auto [width, height] = header.size;
+  if (header.bits != 16 || header.channels != "gray")
+    return fmt::format("{}-bit {} is not 16-bit gray depth", header.bits, header.channels);
+  if (width < kSmallestSide || height < kSmallestSide)
+    return fmt::format("{}x{} is smaller than {} pixels a side", width, height, kSmallestSide);
+  return "";
+}
+
+bool is_cloud(const fs::path& path) { return path.extension() == ".pcd" || path.extension() == ".PCD"; }
+
+// Labels of an image in colour: black is no object, the other colours are 1, 2, .. in the order of their
+// values.
+cv::Mat1w labels_of_colours(const cv::Mat3b& image) {
+  constexpr std::size_t kMost = 65535;
+  std::map<int, std::uint16_t> labels;
+  const auto code = [](const cv::Vec3b& bgr) { return bgr[2] << 16 | bgr[1] << 8 | bgr[0]; };
+  for (const cv::Vec3b& pixel : image) labels.emplace(code(pixel), std::uint16_t{0});
+  labels.erase(0);
+  if (labels.size() > kMost) throw std::runtime_error("too many colours for labels");
+  std::uint16_t next = 0;
+  for (auto& [colour, label] : labels) label = ++next;
+  labels.emplace(0, std::uint16_t{0});
+  cv::Mat1w out(image.size());
+  std::transform(image.begin(), image.end(), out.begin(),
+                 [&](const cv::Vec3b& pixel) { return labels.at(code(pixel)); });
+  return out;
+}
+
+std::string plain(cv::Size size) { return fmt::format("{}x{}", size.width, size.height); }
+
+class FolderSource : public FrameSource {
+ public:
+  explicit FolderSource(const fs::path& folder) : listing_(list_folder(folder)) {
+    info_.uri = folder.string();
+    info_.kind = listing_.kind;
+    info_.size = first_size(folder);
+    info_.frame_count = static_cast<std::int64_t>(listing_.entries.size());
+    info_.rate_hz = listing_.rate_hz;
+    info_.notes = listing_.notes;
+    auto camera = read_meta(folder);
+    if (!camera) camera = camera_of_cloud();
+    info_.intrinsics = camera ? *camera : Intrinsics::guess_for(info_.size);
+  }
+
+  const SourceInfo& info() const override { return info_; }
+
+  void seek(std::int64_t index) override { next_ = index; }
+
+  ReadResult read(Frame& frame, std::chrono::milliseconds) override {
+    if (next_ < 0 || next_ >= info_.frame_count) return {ReadStatus::end, ""};
+    const FolderEntry& entry = listing_.entries[static_cast<std::size_t>(next_)];
+    frame.index = next_++;
+    frame.timestamp_us = entry.timestamp_us;
+    frame.name = entry.name;
+    frame.intrinsics = info_.intrinsics;
+    frame.truth.normals.release();
+    fs::path current = entry.depth;
+    try {
+      read_depth(current, frame);
+      read_colour(current = entry.colour, frame);
+      read_labels(current = entry.label, frame);
+    } catch (const std::runtime_error& error) {  // an Error, or the reason of a decoder
+      return {ReadStatus::rejected, fmt::format("{}: {}", current.filename().string(), error.what())};
+    }
+    return {ReadStatus::frame, ""};
+  }
+
+ private:
+  // Frames are all of one size: that of the first whose header makes sense.
+  cv::Size first_size(const fs::path& folder) const {
+    std::string first_problem;
+    for (const FolderEntry& entry : listing_.entries) {
+      std::string problem;
+      try {
+        if (is_cloud(entry.depth)) return read_pcd_size(read_file(entry.depth));
+        const PngHeader header = read_png_header(read_file(entry.depth));
+        problem = depth_problem(header);
+        if (problem.empty()) return header.size;
+      } catch (const std::runtime_error& error) {
+        problem = error.what();
+      }
+      if (first_problem.empty())
+        first_problem = fmt::format("{}: {}", entry.depth.filename().string(), problem);
+    }
+    throw unreadable("no usable depth image; " + first_problem, folder.string(),
+                     "depth must be 16-bit gray PNG in mm or an organised PCD, 8 to 8192 pixels a side");
+  }
+
+  std::optional<Intrinsics> camera_of_cloud() {
+    if (listing_.cloud.empty()) return std::nullopt;
+    try {
+      return read_pcd(read_file(listing_.cloud)).intrinsics;
+    } catch (const std::runtime_error& error) {
+      info_.notes.push_back(fmt::format("{}: {}", listing_.cloud.filename().string(), error.what()));
+      return std::nullopt;
+    }
+  }
+
+  void check_depth_size(cv::Size size) const {
+    if (size != info_.size)
+      throw std::runtime_error(fmt::format("{}, but the first frame is {}", plain(size), plain(info_.size)));
+  }
+
+  void read_depth(const fs::path& path, Frame& frame) const {
+    const auto bytes = read_file(path);
+    if (is_cloud(path)) {
+      check_depth_size(read_pcd_size(bytes));
+      frame.depth_mm = read_pcd(bytes).depth_mm;
+      return;
+    }
+    const PngHeader header = read_png_header(bytes);
+    if (const std::string problem = depth_problem(header); !problem.empty())
+      throw std::runtime_error(problem);
+    check_depth_size(header.size);
+    decode_png(bytes).convertTo(frame.depth_mm, CV_32F, listing_.mm_per_unit);
+  }
+
+  void check_size(cv::Size size) const {
+    if (size != info_.size)
+      throw std::runtime_error(fmt::format("{}, but the depth is {}", plain(size), plain(info_.size)));
+  }
+
+  void read_colour(const fs::path& path, Frame& frame) const {
+    frame.colour.release();
+    if (path.empty()) return;
+    const auto bytes = read_file(path);
+    cv::Mat image;
+    if (path.extension() == ".png") {
+      check_size(read_png_header(bytes).size);
+      image = decode_png(bytes);
+      if (image.depth() == CV_16U) image.convertTo(image, CV_8U, 1.0 / 256);
+      if (image.channels() == 1) cv::merge(std::vector<cv::Mat>(3, image), image);
+    } else if (!bytes.empty()) {
+      image = cv::imdecode(bytes, cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION);
+    }
+    if (image.empty()) throw std::runtime_error("not a sound image");
+    check_size(image.size());
+    frame.colour = image;
+  }
+
+  void read_labels(const fs::path& path, Frame& frame) const {
+    frame.truth.labels.release();
+    if (path.empty()) return;
+    const cv::Mat image = decode_png(read_file(path));
+    check_size(image.size());
+    if (image.channels() != 1) {
+      if (info_.kind != "osd") throw std::runtime_error("labels must be gray or palette");
+      frame.truth.labels = labels_of_colours(image);
+      return;
+    }
+    image.convertTo(frame.truth.labels, CV_16U);
+  }
+
+  FolderListing listing_;
+  SourceInfo info_;
+  std::int64_t next_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<FrameSource> open_folder(const fs::path& folder) {
+  return std::make_unique<FolderSource>(folder);
+}
+
+}  // namespace saccade

@@ -1,0 +1,158 @@
+#include "sources/nyu_source.hpp"
+
+#include <cmath>
+#include <map>
+#include <stdexcept>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+#include "core/png.hpp"
+#include "sources/hdf5_file.hpp"
+
+namespace saccade {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr double kRateHz = 30;  // the images are single views: times only number them
+constexpr const char* kHint = "expected the labelled .mat of NYU Depth V2 (MATLAB 7.3)";
+
+// 1, 2, .. for each pair of class and instance that occurs, in their order.
+cv::Mat1w number_objects(const cv::Mat1w& classes, const cv::Mat1w& instances) {
+  std::map<std::pair<int, int>, std::uint16_t> numbers;
+  const auto key = [&](int r, int c) {
+    return classes(r, c) == 0 || instances(r, c) == 0 ? std::pair(0, 0)
+                                                      : std::pair<int, int>(classes(r, c), instances(r, c));
+  };
+  for (int r = 0; r < classes.rows; ++r)
+    for (int c = 0; c < classes.cols; ++c) numbers.emplace(key(r, c), std::uint16_t{0});
+  numbers.erase({0, 0});
+  if (numbers.size() > 65535) throw std::runtime_error("too many objects in one image");
+  std::uint16_t next = 0;
+  for (auto& [pair, number] : numbers) number = ++next;
+  numbers.emplace(std::pair(0, 0), std::uint16_t{0});
+  cv::Mat1w labels(classes.size());
+  for (int r = 0; r < classes.rows; ++r)
+    for (int c = 0; c < classes.cols; ++c) labels(r, c) = numbers.at(key(r, c));
+  return labels;
+}
+
+class NyuSource : public FrameSource {
+ public:
+  explicit NyuSource(const fs::path& path) : path_(path.string()), file_(open_hdf5(path)) {
+    if (!file_.valid()) throw unreadable("not an HDF5 file", path_, kHint);
+    try {
+      open_arrays();
+    } catch (const std::runtime_error& error) {
+      throw unreadable(error.what(), path_, kHint);
+    }
+    info_.uri = path_;
+    info_.kind = "nyu";
+    info_.rate_hz = kRateHz;
+    info_.intrinsics = Intrinsics::guess_for(info_.size);
+    // The RGB camera of the data set's toolbox, which counts pixels from 1; depth is registered to it.
+    if (info_.size == cv::Size(640, 480))
+      info_.intrinsics = {518.857901, 519.469611, 324.582449, 252.736166, IntrinsicsOrigin::sensor};
+    if (!labels_) info_.notes.push_back("there are no labels in the file");
+    if (labels_ && !instances_)
+      info_.notes.push_back("there are no instances in the file: each class counts as one object");
+  }
+
+  const SourceInfo& info() const override { return info_; }
+
+  void seek(std::int64_t index) override { next_ = index; }
+
+  ReadResult read(Frame& frame, std::chrono::milliseconds) override {
+    if (next_ < 0 || next_ >= info_.frame_count) return {ReadStatus::end, ""};
+    frame.index = next_++;
+    frame.timestamp_us = std::llround(static_cast<double>(frame.index) * 1e6 / kRateHz);
+    frame.name.clear();
+    frame.intrinsics = info_.intrinsics;
+    frame.truth = {};
+    try {
+      read_depth(frame);
+      read_colour(frame);
+      read_labels(frame);
+    } catch (const std::runtime_error& error) {
+      return {ReadStatus::rejected, error.what()};
+    }
+    return {ReadStatus::frame, ""};
+  }
+
+ private:
+  void open_arrays() {
+    depths_ = Hdf5Images::open(file_, "depths");
+    if (!depths_) throw std::runtime_error("there are no depths in the file");
+    const auto& shape = depths_->shape();
+    if (shape.size() != 3 || shape[0] == 0) throw std::runtime_error("depths are not N x W x H");
+    constexpr hsize_t kLeast = 8;
+    for (const hsize_t side : {shape[1], shape[2]})
+      if (side < kLeast || side > kLargestSide)
+        throw std::runtime_error(
+            fmt::format("{}x{} is not of 8 to {} pixels a side", shape[1], shape[2], kLargestSide));
+    info_.size = {static_cast<int>(shape[1]), static_cast<int>(shape[2])};
+    info_.frame_count = static_cast<std::int64_t>(shape[0]);
+    images_ = Hdf5Images::open(file_, "images");
+    if (images_ && images_->shape() != std::vector<hsize_t>{shape[0], 3, shape[1], shape[2]})
+      throw std::runtime_error("images are not N x 3 x W x H like the depths");
+    labels_ = Hdf5Images::open(file_, "labels");
+    instances_ = Hdf5Images::open(file_, "instances");
+    for (const auto* array : {&labels_, &instances_})
+      if (*array && (*array)->shape() != shape)
+        throw std::runtime_error("labels or instances are not N x W x H like the depths");
+  }
+
+  // One plane of W x H as it lies in the file is the transpose of the image.
+  cv::Size stored() const { return {info_.size.height, info_.size.width}; }
+
+  void read_depth(Frame& frame) {
+    constexpr float kFarthest_m = 1e4F;
+    cv::Mat1f metres(stored());
+    depths_->read(static_cast<hsize_t>(frame.index), H5T_NATIVE_FLOAT, metres.data);
+    for (float& z : metres) z = z > 0 && z < kFarthest_m ? z * 1000 : 0;  // also where z is not a number
+    cv::transpose(metres, frame.depth_mm);
+  }
+
+  void read_colour(Frame& frame) {
+    frame.colour.release();
+    if (!images_) return;
+    const cv::Size plane = stored();
+    cv::Mat1b planes(3 * plane.height, plane.width);
+    images_->read(static_cast<hsize_t>(frame.index), H5T_NATIVE_UINT8, planes.data);
+    std::array<cv::Mat1b, 3> bgr;
+    for (int i = 0; i < 3; ++i) {  // stored as R, G, B
+      const cv::Mat1b one = planes.rowRange(i * plane.height, (i + 1) * plane.height);
+      cv::transpose(one, bgr[static_cast<std::size_t>(2 - i)]);
+    }
+    cv::Mat colour;
+    cv::merge(bgr.data(), bgr.size(), colour);
+    frame.colour = colour;
+  }
+
+  cv::Mat1w read_numbers(const Hdf5Images& array, std::int64_t index) const {
+    cv::Mat1w turned(stored()), image;
+    array.read(static_cast<hsize_t>(index), H5T_NATIVE_UINT16, turned.data);
+    cv::transpose(turned, image);
+    return image;
+  }
+
+  void read_labels(Frame& frame) {
+    if (!labels_) return;
+    const cv::Mat1w classes = read_numbers(*labels_, frame.index);
+    frame.truth.labels =
+        instances_ ? number_objects(classes, read_numbers(*instances_, frame.index)) : classes;
+  }
+
+  std::string path_;
+  Hdf5Id file_;
+  SourceInfo info_;
+  std::optional<Hdf5Images> depths_, images_, labels_, instances_;
+  std::int64_t next_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<FrameSource> open_nyu(const fs::path& file) { return std::make_unique<NyuSource>(file); }
+
+}  // namespace saccade

@@ -1,0 +1,166 @@
+#include "sources/oni_source.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include <fmt/format.h>
+#include <opencv2/imgproc.hpp>
+
+#include "core/error.hpp"
+
+namespace saccade {
+namespace {
+
+constexpr double kDefaultRateHz = 30;
+constexpr std::uint64_t kJump_us = 10'000'000;  // a larger step of time is told
+constexpr std::size_t kMostNotes = 5;           // problems that are told one by one
+
+const OniNode& need_depth(const Recording& recording) {
+  const OniNode* depth = main_depth(recording);
+  if (depth != nullptr) return *depth;
+  const auto& nodes = recording.index().nodes;
+  std::string streams;
+  for (const OniNode& node : nodes) {
+    if (!holds_frames(node.declared.type)) continue;
+    const OniFormat format = format_at(node, std::numeric_limits<std::uint64_t>::max());
+    streams += fmt::format("{}{} with {} frames", streams.empty() ? "" : ", ", to_string(node.declared.type),
+                           node.frames.size());
+    if (!format.unusable.empty()) streams += fmt::format(", {}", format.unusable);
+  }
+  throw unreadable("no depth frames in this recording", recording.file().name(),
+                   streams.empty() ? "it holds no streams" : fmt::format("it holds {}", streams));
+}
+
+// The format of the stream's first frame that can be decoded at all; there is one.
+OniFormat first_format(const Recording& recording, const OniNode& node) {
+  for (std::size_t k = 0; k < node.frames.size(); ++k) {
+    OniFormat format = recording.format(node, k);
+    if (format.unusable.empty()) return format;
+  }
+  return {};
+}
+
+// Nearest neighbours of two whole streams are at most half a period apart; the rest is for jitter.
+std::uint64_t tolerance_us(double rate_hz) {
+  return static_cast<std::uint64_t>(0.75e6 / (rate_hz > 0 ? rate_hz : kDefaultRateHz));
+}
+
+}  // namespace
+
+OniSource::OniSource(const std::filesystem::path& path)
+    : recording_(path), depth_(&need_depth(recording_)), colour_(main_colour(recording_)) {
+  fill_info(path);
+}
+
+void OniSource::fill_info(const std::filesystem::path& path) {
+  const OniFormat format = first_format(recording_, *depth_);
+  info_.uri = path.string();
+  info_.kind = "oni";
+  info_.size = format.size;
+  info_.frame_count = static_cast<std::int64_t>(depth_->frames.size());
+  info_.rate_hz = format.rate_hz;
+  const auto camera = intrinsics_at(*depth_, depth_->frames.front().payload_position, format.size);
+  info_.intrinsics = camera.value_or(Intrinsics::guess_for(format.size));
+  if (info_.intrinsics.origin == IntrinsicsOrigin::guess)
+    info_.notes.push_back("the recording holds no camera calibration, so it is guessed");
+  const auto& nodes = recording_.index().nodes;
+  const auto depths = std::count_if(nodes.begin(), nodes.end(), [](const OniNode& node) {
+    return node.declared.type == OniNodeType::depth && !node.frames.empty();
+  });
+  if (depths > 1) info_.notes.push_back(fmt::format("the first of {} depth streams is shown", depths));
+  if (format.crop.size() != format.size)
+    info_.notes.push_back(fmt::format("depth is cropped to {} x {} at ({}, {}); the rest has no reading",
+                                      format.crop.width, format.crop.height, format.crop.x, format.crop.y));
+  pairing_tolerance_us_ = tolerance_us(format.rate_hz);
+  note_colour();
+  note_times();
+  note_problems();
+}
+
+void OniSource::note_colour() {
+  if (colour_ == nullptr) return;
+  const OniFormat format = first_format(recording_, *colour_);
+  pairing_tolerance_us_ = std::max(pairing_tolerance_us_, tolerance_us(format.rate_hz));
+  if (colour_->declared.type == OniNodeType::ir)
+    info_.notes.push_back("no colour stream; the infrared picture is shown as grey");
+  if (format.size != info_.size)
+    info_.notes.push_back(fmt::format("colour of {} x {} is scaled to the depth's {} x {}", format.size.width,
+                                      format.size.height, info_.size.width, info_.size.height));
+  if (depth_->int_property(oni_property::kRegistered, recording_.index().file_size).value_or(0) == 0)
+    info_.notes.push_back("the recording does not say whether colour lies on the depth; it is taken to");
+}
+
+void OniSource::note_times() {
+  const auto& frames = depth_->frames;
+  std::size_t jumps = 0, first = 0;
+  for (std::size_t k = 1; k < frames.size(); ++k) {
+    const std::uint64_t before = frames[k - 1].timestamp_us, now = frames[k].timestamp_us;
+    if (now >= before && now - before <= kJump_us) continue;
+    if (jumps++ == 0) first = k;
+  }
+  if (jumps > 0)
+    info_.notes.push_back(fmt::format(
+        "the time jumps {} times, first at frame {}: by more than 10 s or backwards", jumps, first));
+}
+
+void OniSource::note_problems() {
+  const auto& problems = recording_.index().problems;
+  std::size_t told = 0;
+  for (const OniProblem& problem : problems.list()) {
+    if (problem.severity != OniSeverity::error) continue;
+    if (told++ == kMostNotes) break;
+    info_.notes.push_back(fmt::format("at byte {}: {}", problem.position, problem.meaning));
+  }
+  const std::size_t errors = problems.count(OniSeverity::error);
+  if (errors > kMostNotes)
+    info_.notes.push_back(fmt::format("{} more problems; saccade oni check lists them", errors - kMostNotes));
+  const auto dropped = depth_->int_property(oni_property::kDropped, recording_.index().file_size).value_or(0);
+  if (dropped > 0) info_.notes.push_back(fmt::format("{} frames were dropped while recording", dropped));
+}
+
+void OniSource::seek(std::int64_t index) { next_ = index < 0 ? 0 : static_cast<std::size_t>(index); }
+
+ReadResult OniSource::read(Frame& frame, std::chrono::milliseconds) {
+  if (next_ >= depth_->frames.size()) return {ReadStatus::end, {}};
+  const std::size_t k = next_++;
+  const OniFrameEntry& entry = depth_->frames[k];
+  frame.index = static_cast<std::int64_t>(k);
+  constexpr auto kLast = static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max());
+  frame.timestamp_us = static_cast<std::int64_t>(std::min(entry.timestamp_us, kLast));
+  frame.name.clear();
+  frame.truth = {};
+  frame.intrinsics = info_.intrinsics;
+  if (const OniFormat format = recording_.format(*depth_, k);
+      format.unusable.empty() && format.size != info_.size)
+    return {ReadStatus::rejected, fmt::format("frame {}: {} x {} instead of {} x {}", k, format.size.width,
+                                              format.size.height, info_.size.width, info_.size.height)};
+  const std::string fault = recording_.read_depth(*depth_, k, frame.depth_mm);
+  if (!fault.empty())
+    return {ReadStatus::rejected, fmt::format("frame {} at byte {}: {}", k, entry.payload_position, fault)};
+  const std::string no_colour = colour_ == nullptr ? "" : read_colour(entry, frame.colour);
+  if (colour_ == nullptr || !no_colour.empty()) frame.colour.release();
+  return {ReadStatus::frame, no_colour};
+}
+
+// Copies the picture that goes with a depth frame into `colour`; returns why there is none.
+std::string OniSource::read_colour(const OniFrameEntry& depth_frame, cv::Mat3b& colour) {
+  const std::size_t k = recording_.nearest(*colour_, depth_frame.timestamp_us).value();
+  if (time_between(colour_->frames[k].timestamp_us, depth_frame.timestamp_us) > pairing_tolerance_us_)
+    return "no colour of that time";
+  if (shown_colour_ != k) {
+    shown_colour_.reset();
+    const std::string fault = recording_.read_colour(*colour_, k, colour_image_);
+    if (!fault.empty()) return fmt::format("colour frame {}: {}", k, fault);
+    shown_colour_ = k;
+  }
+  const cv::Size size = info_.size;
+  if (colour_image_.size() == size)
+    colour_image_.copyTo(colour);
+  else
+    cv::resize(
+        colour_image_, colour, size, 0, 0,
+        colour_image_.total() > static_cast<std::size_t>(size.area()) ? cv::INTER_AREA : cv::INTER_LINEAR);
+  return {};
+}
+
+}  // namespace saccade

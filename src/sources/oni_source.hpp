@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+
+#include "core/frame_source.hpp"
+#include "oni/recording.hpp"
+
+namespace saccade {
+
+/// Frames of an .oni recording, by Saccade's own reader. Each depth frame of the first depth stream is a
+/// frame; a damaged one is `rejected`, and the next may be good.
+///
+/// Colour is the frame of the first image stream (or, where there is none, of the infrared stream as grey)
+/// whose time is nearest to the depth's, at most one nominal frame period of the slower stream away (33.3 ms
+/// where the file names no rate); beyond that, or where it is damaged, the frame has no colour, and
+/// ReadResult::reason says why. Colour of another size is scaled to the depth's size, which is exact only for
+/// cameras that see the same field of view; info().notes tells. Pixels left out by cropping have no reading.
+///
+/// Timestamps are those of the file. seek() takes constant time.
+class OniSource final : public FrameSource {
+ public:
+  /// Throws Error (unreadable) if the file is no recording or holds no depth frame that could be decoded.
+  explicit OniSource(const std::filesystem::path& path);
+
+  const SourceInfo& info() const override { return info_; }
+  ReadResult read(Frame& frame, std::chrono::milliseconds timeout) override;
+  void seek(std::int64_t index) override;
+
+ private:
+  void fill_info(const std::filesystem::path& path);
+  void note_colour();
+  void note_times();
+  void note_problems();
+  std::string read_colour(const OniFrameEntry& depth_frame, cv::Mat3b& colour);
+
+  Recording recording_;
+  const OniNode* depth_ = nullptr;
+  const OniNode* colour_ = nullptr;  // nullptr = the recording has none
+  std::uint64_t pairing_tolerance_us_ = 0;
+  std::size_t next_ = 0;
+  std::optional<std::size_t> shown_colour_;  // the frame that colour_image_ holds
+  cv::Mat3b colour_image_;
+  SourceInfo info_;
+};
+
+}  // namespace saccade

@@ -1,0 +1,295 @@
+#include "sources/pcd.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "core/png.hpp"
+#include "sources/lzf.hpp"
+
+namespace saccade {
+namespace {
+
+using Bytes = std::span<const std::uint8_t>;
+using std::string_view;
+
+constexpr std::size_t kMostFields = 64, kLargestPoint = 4096;  // more is no camera's cloud
+
+struct Field {
+  std::size_t size = 4, count = 1;
+  char type = 'F';
+  std::string name;
+  std::size_t offset = 0;  // in a point, bytes
+};
+
+struct Header {
+  std::vector<Field> fields;
+  cv::Size size;
+  std::size_t point_bytes = 0, points = 0;
+  std::string encoding;
+  std::size_t data_begin = 0;
+  std::array<std::size_t, 3> xyz{};  // indices of the fields
+};
+
+std::runtime_error broken(const std::string& why) { return std::runtime_error("not a sound PCD: " + why); }
+
+std::vector<string_view> words_of(string_view line) {
+  std::vector<string_view> words;
+  constexpr string_view kBlank = " \t\r";
+  for (std::size_t begin = 0; (begin = line.find_first_not_of(kBlank, begin)) != string_view::npos;) {
+    const std::size_t end = std::min(line.find_first_of(kBlank, begin), line.size());
+    words.push_back(line.substr(begin, end - begin));
+    begin = end;
+  }
+  return words;
+}
+
+std::size_t whole_number(string_view word, std::size_t most, const char* what) {
+  std::size_t value = 0;
+  const auto [end, code] = std::from_chars(word.data(), word.data() + word.size(), value);
+  if (code != std::errc{} || end != word.data() + word.size() || value > most)
+    throw broken(fmt::format("{} is not a whole number up to {}", what, most));
+  return value;
+}
+
+// What a header line says of each field.
+template <typename Set>
+void for_each_field(Header& header, const std::vector<string_view>& words, Set set) {
+  if (words.size() - 1 != header.fields.size())
+    throw broken(fmt::format("{} is not given for each field", words[0]));
+  for (std::size_t i = 1; i < words.size(); ++i) set(header.fields[i - 1], words[i]);
+}
+
+void read_line(Header& header, const std::vector<string_view>& words) {
+  constexpr std::array<string_view, 11> kKeys = {"VERSION", "FIELDS", "COLUMNS",   "SIZE",   "TYPE", "COUNT",
+                                                 "WIDTH",   "HEIGHT", "VIEWPOINT", "POINTS", "DATA"};
+  const string_view key = words[0];
+  if (std::find(kKeys.begin(), kKeys.end(), key) == kKeys.end())
+    throw broken("its header has an unknown line");
+  if (words.size() < 2) throw broken(fmt::format("nothing behind {}", key));
+  const auto side = [&](const char* what) {
+    return static_cast<int>(whole_number(words[1], 1u << 30, what));
+  };
+  if (key == "FIELDS" || key == "COLUMNS") {
+    if (words.size() - 1 > kMostFields) throw broken("too many fields");
+    header.fields.resize(words.size() - 1);
+    for_each_field(header, words, [](Field& field, string_view word) { field.name = word; });
+  } else if (key == "SIZE") {
+    for_each_field(header, words,
+                   [](Field& field, string_view word) { field.size = whole_number(word, 8, "SIZE"); });
+  } else if (key == "TYPE") {
+    for_each_field(header, words, [](Field& field, string_view word) { field.type = word[0]; });
+  } else if (key == "COUNT") {
+    for_each_field(header, words, [](Field& field, string_view word) {
+      field.count = whole_number(word, kLargestPoint, "COUNT");
+    });
+  } else if (key == "WIDTH") {
+    header.size.width = side("WIDTH");
+  } else if (key == "HEIGHT") {
+    header.size.height = side("HEIGHT");
+  } else if (key == "POINTS") {
+    header.points = whole_number(words[1], std::size_t{1} << 40, "POINTS");
+  } else if (key == "DATA") {
+    header.encoding = words[1];
+  }  // VERSION and VIEWPOINT do not matter
+}
+
+void check_header(Header& header) {
+  const auto [width, height] = header.size;
+  if (width <= 0 || height <= 0) throw broken("no WIDTH or HEIGHT");
+  if (height == 1) throw std::runtime_error("the cloud is not organised: HEIGHT is 1");
+  if (width > kLargestSide || height > kLargestSide)
+    throw std::runtime_error(
+        fmt::format("{}x{} is larger than {} pixels a side", width, height, kLargestSide));
+  const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+  if (header.points != 0 && header.points != pixels) throw broken("POINTS is not WIDTH times HEIGHT");
+  header.points = pixels;
+  for (Field& field : header.fields) {
+    field.offset = header.point_bytes;
+    header.point_bytes += field.size * field.count;
+    if (header.point_bytes > kLargestPoint) throw broken("a point is too large");
+  }
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const std::string name(1, "xyz"[axis]);
+    const auto field = std::find_if(header.fields.begin(), header.fields.end(),
+                                    [&](const Field& f) { return f.name == name; });
+    if (field == header.fields.end()) throw broken("no field " + name);
+    if (field->type != 'F' || field->count != 1 || (field->size != 4 && field->size != 8))
+      throw broken(fmt::format("field {} is not one float of 4 or 8 bytes", name));
+    header.xyz[axis] = static_cast<std::size_t>(field - header.fields.begin());
+  }
+}
+
+string_view text_of(Bytes bytes) { return {reinterpret_cast<const char*>(bytes.data()), bytes.size()}; }
+
+Header read_header(Bytes pcd) {
+  constexpr std::size_t kLongestHeader = 1 << 16;
+  const string_view text = text_of(pcd.first(std::min(pcd.size(), kLongestHeader)));
+  Header header;
+  std::size_t begin = 0;
+  while (header.encoding.empty()) {
+    const std::size_t end = text.find('\n', begin);
+    if (end == string_view::npos) throw broken("its header has no DATA line");
+    const auto words = words_of(text.substr(begin, end - begin));
+    begin = end + 1;
+    if (!words.empty() && words[0][0] != '#') read_line(header, words);
+  }
+  header.data_begin = begin;
+  check_header(header);
+  return header;
+}
+
+double number_at(Bytes bytes, std::size_t offset, std::size_t size) {
+  if (size == 8) {
+    double value = 0;
+    std::memcpy(&value, bytes.data() + offset, 8);
+    return value;
+  }
+  float value = 0;
+  std::memcpy(&value, bytes.data() + offset, 4);
+  return static_cast<double>(value);
+}
+
+using Points = std::vector<cv::Point3d>;
+
+// Fields of one point side by side, or (compressed) all values of one field side by side.
+Points read_binary(const Header& header, Bytes data, bool by_field) {
+  if (data.size() < header.points * header.point_bytes) throw broken("the file is cut");
+  Points points(header.points);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const auto value = [&](std::size_t axis) {
+      const Field& field = header.fields[header.xyz[axis]];
+      const std::size_t offset =
+          by_field ? field.offset * header.points + i * field.size : i * header.point_bytes + field.offset;
+      return number_at(data, offset, field.size);
+    };
+    points[i] = {value(0), value(1), value(2)};
+  }
+  return points;
+}
+
+Points read_compressed(const Header& header, Bytes data) {
+  std::array<std::uint32_t, 2> sizes{};  // compressed, uncompressed; little-endian
+  if (data.size() < sizeof(sizes)) throw broken("the file is cut");
+  std::memcpy(sizes.data(), data.data(), sizeof(sizes));
+  if (sizes[1] != header.points * header.point_bytes)
+    throw broken("its uncompressed size is not that of its points");
+  if (sizes[0] > data.size() - sizeof(sizes)) throw broken("the file is cut");
+  // LZF makes at most 264 bytes of 3: what claims more is not even tried.
+  if (sizes[1] / 88 > sizes[0]) throw broken("its compressed data are too short");
+  std::vector<std::uint8_t> plain(sizes[1]);
+  if (!lzf_decompress(data.subspan(sizeof(sizes), sizes[0]), plain))
+    throw broken("its compressed data are damaged");
+  return read_binary(header, plain, true);
+}
+
+double parse_number(string_view word) {
+  double value = 0;
+  const auto [end, code] = std::from_chars(word.data(), word.data() + word.size(), value);
+  if (code == std::errc::result_out_of_range) return std::nan("");
+  if (code != std::errc{} || end != word.data() + word.size()) throw broken("a value is no number");
+  return value;
+}
+
+Points read_ascii(const Header& header, string_view text) {
+  std::array<std::size_t, 3> columns{};
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    for (std::size_t i = 0; i < header.xyz[axis]; ++i) columns[axis] += header.fields[i].count;
+  const std::size_t last = *std::max_element(columns.begin(), columns.end());
+  if (text.size() / 2 < header.points) throw broken("the file is cut");  // before memory is taken for it
+  Points points(header.points);
+  std::size_t begin = 0;
+  for (cv::Point3d& point : points) {
+    std::vector<string_view> words;
+    while (words.empty()) {  // blank lines are nothing
+      if (begin >= text.size()) throw broken("the file is cut");
+      const std::size_t end = std::min(text.find('\n', begin), text.size());
+      words = words_of(text.substr(begin, end - begin));
+      begin = end + 1;
+    }
+    if (words.size() <= last) throw broken("a line has too few numbers");
+    point = {parse_number(words[columns[0]]), parse_number(words[columns[1]]),
+             parse_number(words[columns[2]])};
+  }
+  return points;
+}
+
+bool usable(const cv::Point3d& p) {
+  constexpr double kFarthest_m = 1e4;
+  return std::isfinite(p.x) && std::isfinite(p.y) && p.z > 0 && p.z < kFarthest_m;
+}
+
+// A least-squares line position = focal * slope + centre, slope = x/z or y/z.
+class LineFit {
+ public:
+  void add(double slope, double position) {
+    ++n_;
+    s_ += slope;
+    p_ += position;
+    ss_ += slope * slope;
+    sp_ += slope * position;
+  }
+  double focal() const { return (n_ * sp_ - s_ * p_) / (n_ * ss_ - s_ * s_); }
+  double centre() const { return (p_ - focal() * s_) / n_; }
+
+ private:
+  double n_ = 0, s_ = 0, p_ = 0, ss_ = 0, sp_ = 0;
+};
+
+// The pinhole camera of the points, if they were made with one: within a pixel of it on average.
+std::optional<Intrinsics> fit_camera(const Points& points, cv::Size size) {
+  constexpr int kFewest = 100;
+  LineFit across, down;
+  int count = 0;
+  const auto for_each_point = [&](auto use) {
+    for (std::size_t i = 0; i < points.size(); ++i)
+      if (usable(points[i])) {
+        const auto width = static_cast<std::size_t>(size.width);
+        use(points[i], static_cast<double>(i / width), static_cast<double>(i % width));
+      }
+  };
+  for_each_point([&](const cv::Point3d& p, double row, double col) {
+    across.add(p.x / p.z, col);
+    down.add(p.y / p.z, row);
+    ++count;
+  });
+  const Intrinsics camera{across.focal(), down.focal(), across.centre(), down.centre(),
+                          IntrinsicsOrigin::file};
+  if (count < kFewest || !camera.valid()) return std::nullopt;
+  double error_px = 0;
+  for_each_point([&](const cv::Point3d& p, double row, double col) {
+    error_px += std::hypot(camera.fx * p.x / p.z + camera.cx - col, camera.fy * p.y / p.z + camera.cy - row);
+  });
+  if (error_px / count > 1) return std::nullopt;
+  return camera;
+}
+
+Points read_points(const Header& header, Bytes data) {
+  if (header.encoding == "ascii") return read_ascii(header, text_of(data));
+  if (header.encoding == "binary") return read_binary(header, data, false);
+  if (header.encoding == "binary_compressed") return read_compressed(header, data);
+  throw broken("its DATA is not ascii, binary or binary_compressed");
+}
+
+}  // namespace
+
+cv::Size read_pcd_size(Bytes pcd) { return read_header(pcd).size; }
+
+OrganisedCloud read_pcd(Bytes pcd) {
+  const Header header = read_header(pcd);
+  const Points points = read_points(header, pcd.subspan(header.data_begin));
+  OrganisedCloud cloud{cv::Mat1f(header.size), fit_camera(points, header.size)};
+  std::transform(points.begin(), points.end(), cloud.depth_mm.begin(),
+                 [](const cv::Point3d& p) { return usable(p) ? static_cast<float>(p.z * 1000) : 0.0F; });
+  return cloud;
+}
+
+}  // namespace saccade

@@ -1,0 +1,209 @@
+#include "sources/synthetic_source.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <functional>
+#include <stdexcept>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "core/error.hpp"
+#include "scene/random.hpp"
+#include "scene/strips.hpp"
+
+namespace saccade {
+namespace {
+
+using std::string_view;
+
+constexpr string_view kScheme = "synthetic:";
+
+template <typename Number>
+std::optional<Number> number(string_view text) {
+  Number value{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+// The value as a number in [low, high]; false otherwise. NaN is in no range.
+template <typename Number, typename Target>
+bool read_number(string_view text, Number low, Number high, Target& target) {
+  const auto value = number<Number>(text);
+  if (!value || !(*value >= low && *value <= high)) return false;
+  target = *value;
+  return true;
+}
+
+bool read_size(string_view text, cv::Size& size) {
+  constexpr int kLargest = 8192;
+  const auto cross = text.find('x');
+  return cross != string_view::npos && read_number(text.substr(0, cross), 1, kLargest, size.width) &&
+         read_number(text.substr(cross + 1), 1, kLargest, size.height);
+}
+
+template <typename Enum>
+bool read_choice(string_view text, string_view first, Enum a, string_view second, Enum b, Enum& target) {
+  if (text != first && text != second) return false;
+  target = text == first ? a : b;
+  return true;
+}
+
+struct Key {
+  string_view name, expects;
+  bool (*read)(string_view, SyntheticSpec&);  // false: not what is expected
+};
+
+using Spec = SyntheticSpec;
+
+constexpr std::array<Key, 10> kKeys = {{
+    {"seed", "a whole number, 0..9007199254740992",
+     [](string_view v, Spec& s) { return read_number<std::uint64_t>(v, 0, std::uint64_t{1} << 53, s.seed); }},
+    {"noise", "none or kinect",
+     [](string_view v, Spec& s) {
+       return read_choice(v, "none", Spec::Noise::none, "kinect", Spec::Noise::kinect, s.noise);
+     }},
+    {"missing", "a share of the pixels, 0..0.9",
+     [](string_view v, Spec& s) { return read_number<double>(v, 0, 0.9, s.missing); }},
+    {"frames", "a whole number, 1..1000000",
+     [](string_view v, Spec& s) { return read_number<std::int64_t>(v, 1, 1'000'000, s.frames); }},
+    {"scenes", "a whole number, 1..1000000",
+     [](string_view v, Spec& s) { return read_number<std::int64_t>(v, 1, 1'000'000, s.scenes); }},
+    {"size", "WxH with both in 1..8192, e.g. 640x480",
+     [](string_view v, Spec& s) { return read_size(v, s.size); }},
+    {"camera", "still or orbit",
+     [](string_view v, Spec& s) {
+       return read_choice(v, "still", Spec::Camera::still, "orbit", Spec::Camera::orbit, s.camera);
+     }},
+    {"rate", "Hz, 0.1..1000",
+     [](string_view v, Spec& s) { return read_number<double>(v, 0.1, 1000, s.rate_hz); }},
+    {"objects", "a whole number, 1..20, of the scene table only",
+     [](string_view v, Spec& s) {
+       return s.scene == "table" && read_number<int>(v, 1, scene::kMostTableObjects, s.objects);
+     }},
+    {"distance", "mm, 400..10000",
+     [](string_view v, Spec& s) { return read_number<double>(v, 400, 10000, s.distance_mm); }},
+}};
+
+std::string known_keys() {
+  std::string names;
+  for (const Key& key : kKeys) names += (names.empty() ? "" : ", ") + std::string(key.name);
+  return names;
+}
+
+void read_pair(string_view pair, const std::string& uri, std::vector<string_view>& seen, Spec& spec) {
+  const auto equals = pair.find('=');
+  const string_view name = pair.substr(0, equals);
+  const auto key = std::ranges::find(kKeys, name, &Key::name);
+  if (key == kKeys.end())
+    throw usage_error(fmt::format("unknown key '{}'", name), uri, "known keys: " + known_keys());
+  if (std::ranges::find(seen, name) != seen.end())
+    throw usage_error(fmt::format("key '{}' is given twice", name), uri, "give it once");
+  seen.push_back(name);
+  const string_view value = equals == string_view::npos ? string_view() : pair.substr(equals + 1);
+  if (!key->read(value, spec))
+    throw usage_error(fmt::format("bad value '{}' of key '{}'", value, name), uri,
+                      fmt::format("expected: {}", key->expects));
+}
+
+}  // namespace
+
+SyntheticSpec parse_synthetic(const std::string& uri) {
+  string_view rest = uri;
+  if (!rest.starts_with(kScheme))
+    throw usage_error("not a synthetic source", uri, "it is written synthetic:NAME?key=value&...");
+  rest.remove_prefix(kScheme.size());
+  const auto question = rest.find('?');
+  SyntheticSpec spec;
+  spec.scene = rest.substr(0, question);
+  const auto names = scene::scene_names();
+  if (std::ranges::find(names, spec.scene) == names.end())
+    throw usage_error(fmt::format("unknown scene '{}'", spec.scene), uri,
+                      fmt::format("known scenes: {}", fmt::join(names, ", ")));
+  if (question == string_view::npos) return spec;
+  rest.remove_prefix(question + 1);
+  std::vector<string_view> seen;
+  while (true) {
+    const auto end = rest.find('&');
+    read_pair(rest.substr(0, end), uri, seen, spec);
+    if (end == string_view::npos) return spec;
+    rest.remove_prefix(end + 1);
+  }
+}
+
+SyntheticSource::SyntheticSource(const std::string& uri)
+    : spec_(parse_synthetic(uri)),
+      scene_(scene::make_scene(spec_.scene, {spec_.seed, spec_.objects, spec_.distance_mm})) {
+  info_.uri = uri;
+  info_.kind = "synthetic";
+  info_.size = spec_.size;
+  info_.frame_count = spec_.frames;
+  info_.rate_hz = spec_.rate_hz;
+  const double focal = 525.0 * spec_.size.width / 640;
+  info_.intrinsics = {focal, focal, (spec_.size.width - 1) / 2.0, (spec_.size.height - 1) / 2.0,
+                      IntrinsicsOrigin::sensor};
+}
+
+void SyntheticSource::set_scene(std::int64_t number) {
+  if (number == scene_number_) return;
+  scene_ = scene::make_scene(
+      spec_.scene, {spec_.seed + static_cast<std::uint64_t>(number), spec_.objects, spec_.distance_mm});
+  scene_number_ = number;
+  looked_ = false;
+}
+
+void SyntheticSource::look(double time_s) {
+  scene::render(scene_, info_.intrinsics, spec_.size, scene_.camera_at(time_s), view_);
+  if (spec_.noise == SyntheticSpec::Noise::kinect) kinect_.set_view(view_, info_.intrinsics);
+}
+
+ReadResult SyntheticSource::read(Frame& frame, std::chrono::milliseconds) {
+  if (next_ >= spec_.frames) return {ReadStatus::end, {}};
+  const std::int64_t index = next_++;
+  set_scene(index % spec_.scenes);
+  if (spec_.camera == SyntheticSpec::Camera::orbit) {
+    look(static_cast<double>(index) / spec_.rate_hz);
+  } else if (!looked_) {
+    look(0);
+    looked_ = true;
+  }
+  frame.index = index;
+  frame.timestamp_us = std::llround(static_cast<double>(index) * 1e6 / spec_.rate_hz);
+  frame.name.clear();
+  frame.intrinsics = info_.intrinsics;
+  // What a still camera sees of one scene is rendered once and shared by all frames; else view_ is rendered
+  // over.
+  const bool rendered_once = spec_.camera == SyntheticSpec::Camera::still && spec_.scenes == 1;
+  const auto give = [rendered_once](const auto& seen, auto& to) {
+    if (rendered_once)
+      to = seen;
+    else
+      seen.copyTo(to);
+  };
+  give(view_.colour, frame.colour);
+  give(view_.labels, frame.truth.labels);
+  give(view_.normals, frame.truth.normals);
+  if (spec_.noise == SyntheticSpec::Noise::kinect)
+    kinect_.sense(scene::mix(scene::mix(spec_.seed, 2), static_cast<std::uint64_t>(index)), frame.depth_mm);
+  else if (spec_.missing > 0)
+    view_.depth_mm.copyTo(frame.depth_mm);
+  else
+    give(view_.depth_mm, frame.depth_mm);
+  if (spec_.missing > 0)
+    scene::remove_strips(scene::mix(spec_.seed + static_cast<std::uint64_t>(scene_number_), 3), spec_.missing,
+                         frame.depth_mm);
+  return {ReadStatus::frame, {}};
+}
+
+void SyntheticSource::seek(std::int64_t index) {
+  if (index < 0) throw std::invalid_argument("SyntheticSource: negative frame index");
+  next_ = index;
+}
+
+}  // namespace saccade

@@ -1,0 +1,227 @@
+#include "sources/folder_source.hpp"
+
+#include <filesystem>
+#include <string_view>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <opencv2/imgcodecs.hpp>
+
+#include "core/error.hpp"
+#include "core/file.hpp"
+#include "core/png.hpp"
+#include "sources/open_source.hpp"
+#include "tests/support/folder_test.hpp"
+#include "tests/support/no_wait.hpp"
+
+namespace saccade {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+class FolderSourceTest : public FolderTest {
+ protected:
+  void put(const std::string& name, const cv::Mat& image) const {
+    write_file(folder_ / name, encode_png(image));
+  }
+  void put_text(const std::string& name, std::string_view text) const { write_file(folder_ / name, text); }
+  void put_depth(const std::string& name, int value, cv::Size size = {16, 12}) const {
+    put(name, cv::Mat1w(size, static_cast<std::uint16_t>(value)));
+  }
+
+  std::string error() const {
+    try {
+      open_folder(folder_);
+    } catch (const Error& e) {
+      EXPECT_EQ(e.status(), ExitStatus::unreadable);
+      return e.what();
+    }
+    ADD_FAILURE() << "no error came";
+    return "";
+  }
+
+  // The reason for which the only, or second, frame is rejected.
+  std::string rejection() const {
+    const auto source = open_folder(folder_);
+    Frame frame;
+    ReadResult result = source->read(frame, kNoWait);
+    if (result.status == ReadStatus::frame) result = source->read(frame, kNoWait);
+    EXPECT_EQ(result.status, ReadStatus::rejected);
+    return result.reason;
+  }
+};
+
+TEST_F(FolderSourceTest, ReadsFramesInTheOrderOfTheirNumbersWithColourAndLabels) {
+  put_depth("10_depth.png", 1010);
+  put_depth("9_depth.png", 65535);
+  put("9_rgb.png", cv::Mat3b(12, 16, cv::Vec3b(1, 2, 3)));
+  put("9_label.png", cv::Mat1b(12, 16, std::uint8_t{7}));
+  put_text("notes.txt", "not a frame");
+  const auto source = open_folder(folder_);
+  EXPECT_EQ(source->info().frame_count, 2);
+  EXPECT_EQ(source->info().size, cv::Size(16, 12));
+  Frame frame;
+  ASSERT_EQ(source->read(frame, kNoWait).status, ReadStatus::frame);
+  EXPECT_EQ(frame.index, 0);
+  EXPECT_EQ(frame.name, "9");
+  EXPECT_EQ(frame.timestamp_us, 0);
+  EXPECT_EQ(frame.depth_mm(3, 4), 65535.0F);
+  EXPECT_EQ(frame.colour(3, 4), cv::Vec3b(1, 2, 3)) << "BGR";
+  EXPECT_EQ(frame.truth.labels(3, 4), 7);
+  ASSERT_EQ(source->read(frame, kNoWait).status, ReadStatus::frame);
+  EXPECT_EQ(frame.index, 1);
+  EXPECT_EQ(frame.timestamp_us, 33333);
+  EXPECT_EQ(frame.depth_mm(0, 0), 1010.0F);
+  EXPECT_TRUE(frame.colour.empty()) << "nothing of the frame before";
+  EXPECT_TRUE(frame.truth.labels.empty());
+  EXPECT_EQ(source->read(frame, kNoWait).status, ReadStatus::end);
+  source->seek(1);
+  ASSERT_EQ(source->read(frame, kNoWait).status, ReadStatus::frame);
+  EXPECT_EQ(frame.name, "10");
+}
+
+TEST_F(FolderSourceTest, GapsInTheNumbersAreReported) {
+  for (const char* name : {"0001_depth.png", "0003_depth.png", "0007_depth.png"}) put_depth(name, 1000);
+  EXPECT_THAT(open_folder(folder_)->info().notes,
+              ElementsAre("4 frames are missing in the numbering: 2, 4..6"));
+}
+
+TEST_F(FolderSourceTest, JpegColourIsRead) {
+  put_depth("0_depth.png", 1000);
+  std::vector<std::uint8_t> jpeg;
+  cv::imencode(".jpg", cv::Mat3b(12, 16, cv::Vec3b(200, 200, 200)), jpeg);
+  write_file(folder_ / "0_rgb.jpg", jpeg);
+  Frame frame;
+  ASSERT_EQ(open_folder(folder_)->read(frame, kNoWait).status, ReadStatus::frame);
+  EXPECT_NEAR(frame.colour(5, 5)[0], 200, 3);
+}
+
+TEST_F(FolderSourceTest, MetaGivesTheCameraAndItsAbsenceIsAGuess) {
+  put_depth("0_depth.png", 1000);
+  EXPECT_EQ(open_folder(folder_)->info().intrinsics.origin, IntrinsicsOrigin::guess);
+  put_text("meta.json", R"({"name": "x"})");
+  EXPECT_EQ(open_folder(folder_)->info().intrinsics.origin, IntrinsicsOrigin::guess);
+  put_text("meta.json", R"({"fx": 500, "fy": 501.5, "cx": 8, "cy": 6})");
+  const Intrinsics camera = open_folder(folder_)->info().intrinsics;
+  EXPECT_EQ(camera.origin, IntrinsicsOrigin::file);
+  EXPECT_EQ(camera.fy, 501.5);
+}
+
+TEST_F(FolderSourceTest, BrokenMetaIsAnError) {
+  put_depth("0_depth.png", 1000);
+  for (const char* text :
+       {"{", "[1]", "", R"({"fx": 1})", R"({"fx": "a", "fy": 1, "cx": 1, "cy": 1})",
+        R"({"fx": -5, "fy": 1, "cx": 1, "cy": 1})", R"({"fx": 1e999, "fy": 1, "cx": 1, "cy": 1})"}) {
+    put_text("meta.json", text);
+    EXPECT_THAT(error(), HasSubstr("meta.json")) << text;
+  }
+}
+
+TEST_F(FolderSourceTest, WrongDepthImagesAreNamedWithWhatIsWrong) {
+  const auto put_only = [&](const cv::Mat& image) { put("0000_depth.png", image); };
+  put_only(cv::Mat1b(12, 16, std::uint8_t{1}));
+  EXPECT_THAT(error(), HasSubstr("0000_depth.png: 8-bit gray is not 16-bit gray depth"));
+  put_only(cv::Mat3b(12, 16, cv::Vec3b()));
+  EXPECT_THAT(error(), HasSubstr("8-bit RGB is not 16-bit gray depth"));
+  put_only(cv::Mat1w(1, 1, std::uint16_t{1}));
+  EXPECT_THAT(error(), HasSubstr("1x1 is smaller than 8 pixels"));
+  put_only(cv::Mat1w(8, 8193, std::uint16_t{1}));
+  EXPECT_THAT(error(), HasSubstr("8193x8 is larger than 8192 pixels"));
+  put_text("0000_depth.png", "");
+  EXPECT_THAT(error(), HasSubstr("empty file"));
+  std::vector<std::uint8_t> tiff;
+  cv::imencode(".tiff", cv::Mat1f(12, 16, 1.0F), tiff);
+  write_file(folder_ / "0000_depth.png", tiff);
+  EXPECT_THAT(error(), HasSubstr("not a sound PNG"));
+}
+
+TEST_F(FolderSourceTest, AFrameCutShortIsRejectedAndTheNextIsRead) {
+  put_depth("0_depth.png", 1000);
+  put_depth("1_depth.png", 1000);
+  put_depth("2_depth.png", 1002);
+  auto bytes = read_file(folder_ / "1_depth.png");
+  bytes.resize(bytes.size() - 30);
+  write_file(folder_ / "1_depth.png", bytes);
+  const auto source = open_folder(folder_);
+  Frame frame;
+  EXPECT_EQ(source->read(frame, kNoWait).status, ReadStatus::frame);
+  const ReadResult result = source->read(frame, kNoWait);
+  EXPECT_EQ(result.status, ReadStatus::rejected);
+  EXPECT_EQ(frame.index, 1);
+  EXPECT_THAT(result.reason, HasSubstr("1_depth.png"));
+  ASSERT_EQ(source->read(frame, kNoWait).status, ReadStatus::frame);
+  EXPECT_EQ(frame.depth_mm(0, 0), 1002.0F);
+}
+
+TEST_F(FolderSourceTest, OtherSizesOfDepthColourAndLabelsAreRejected) {
+  put_depth("0_depth.png", 1000);
+  put_depth("1_depth.png", 1000, {32, 24});
+  EXPECT_THAT(rejection(), HasSubstr("32x24, but the first frame is 16x12"));
+  put_depth("1_depth.png", 1000);
+  put("1_rgb.png", cv::Mat3b(24, 32, cv::Vec3b()));
+  EXPECT_THAT(rejection(), HasSubstr("1_rgb.png: 32x24, but the depth is 16x12"));
+  fs::remove(folder_ / "1_rgb.png");
+  put("1_label.png", cv::Mat1b(24, 32, std::uint8_t{1}));
+  EXPECT_THAT(rejection(), HasSubstr("1_label.png"));
+  put("1_label.png", cv::Mat3b(12, 16, cv::Vec3b()));
+  EXPECT_THAT(rejection(), HasSubstr("labels must be gray or palette"));
+}
+
+TEST_F(FolderSourceTest, EmptyAndMissingFoldersAreErrors) {
+  EXPECT_THAT(error(), HasSubstr("no frames in the folder"));
+  EXPECT_THROW(open_folder(folder_ / "none"), Error);
+  EXPECT_THROW(open_source((folder_ / "none").string()), Error);
+}
+
+TEST_F(FolderSourceTest, TumFolderIsPairedByTime) {
+  fs::create_directories(folder_ / "depth");
+  fs::create_directories(folder_ / "rgb");
+  put_depth("depth/a.png", 5000);
+  put_depth("depth/b.png", 2501);
+  put("rgb/a.png", cv::Mat3b(12, 16, cv::Vec3b(9, 9, 9)));
+  put_text("depth.txt", "# depth maps\n# timestamp filename\n100.50 depth/b.png\n100.25 depth/a.png\n");
+  put_text("rgb.txt", "# colour\n100.26 rgb/a.png\n100.60 rgb/a.png\n");
+  const auto source = open_folder(folder_);
+  EXPECT_EQ(source->info().kind, "tum");
+  EXPECT_THAT(source->info().notes, ElementsAre("1 depth frames have no colour image within 20 ms"));
+  Frame frame;
+  ASSERT_EQ(source->read(frame, kNoWait).status, ReadStatus::frame);
+  EXPECT_EQ(frame.depth_mm(0, 0), 1000.0F);
+  EXPECT_EQ(frame.colour(0, 0)[0], 9);
+  ASSERT_EQ(source->read(frame, kNoWait).status, ReadStatus::frame);
+  EXPECT_EQ(frame.timestamp_us, 250000);
+  EXPECT_FLOAT_EQ(frame.depth_mm(0, 0), 500.2F);
+  EXPECT_TRUE(frame.colour.empty());
+}
+
+TEST_F(FolderSourceTest, BrokenTumListNamesTheLine) {
+  put_text("depth.txt", "1.0 a.png\nnonsense b.png\n");
+  EXPECT_THAT(error(), HasSubstr("depth.txt:2"));
+  put_text("depth.txt", "# nothing\n");
+  EXPECT_THAT(error(), HasSubstr("no frames in the list"));
+}
+
+TEST(FolderSourceOnRealData, ReadsEveryFrame) {
+  for (const char* name : {"osd_learn", "kitchen_sequence"}) {
+    const fs::path folder = fs::path(SACCADE_SHARED_DIR) / "data" / name;
+    if (!fs::exists(folder)) GTEST_SKIP() << folder << " is not on this machine";
+    const auto source = open_folder(folder);
+    EXPECT_THAT(source->info().notes, IsEmpty());
+    EXPECT_EQ(source->info().intrinsics.origin, IntrinsicsOrigin::file);
+    Frame frame;
+    std::int64_t count = 0;
+    ReadResult result;
+    while ((result = source->read(frame, kNoWait)).status == ReadStatus::frame) {
+      ++count;
+      EXPECT_FALSE(frame.colour.empty());
+    }
+    EXPECT_EQ(result.status, ReadStatus::end) << result.reason;
+    EXPECT_EQ(count, source->info().frame_count);
+  }
+}
+
+}  // namespace
+}  // namespace saccade

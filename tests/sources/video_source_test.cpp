@@ -1,0 +1,257 @@
+#include "sources/video_source.hpp"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/videoio.hpp>
+
+#include "core/error.hpp"
+#include "core/file.hpp"
+#include "core/png.hpp"
+#include "matroska_writer.hpp"
+#include "sources/depth_video.hpp"
+#include "sources/open_source.hpp"
+#include "tests/support/folder_test.hpp"
+#include "tests/support/no_wait.hpp"
+
+namespace saccade {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::Contains;
+using ::testing::HasSubstr;
+
+const cv::Size kSize(64, 48);
+constexpr int kFrames = 6;
+
+// Every one of the sixteen bits matters in these.
+cv::Mat1w depth_image(int k, cv::Size size = kSize) {
+  cv::Mat1w depth(size);
+  for (int row = 0; row < depth.rows; ++row)
+    for (int column = 0; column < depth.cols; ++column)
+      depth(row, column) = static_cast<std::uint16_t>(37 * k + 1013 * row + 259 * column);
+  return depth;
+}
+
+// One colour an image, which survives any codec well enough to tell the image.
+cv::Mat3b colour_image(int k, cv::Size size = kSize) {
+  return {size, cv::Vec3b(static_cast<std::uint8_t>(30 * k), 100, static_cast<std::uint8_t>(250 - 30 * k))};
+}
+
+class VideoSourceTest : public FolderTest {
+ protected:
+  VideoSourceTest() { quieten_video_libraries(); }
+  fs::path path(const std::string& name) const { return folder_ / name; }
+
+  // False if no video of this kind can be written on this machine.
+  bool write_ffv1(const std::string& name) const {
+    cv::VideoWriter writer(
+        fmt::format("appsrc ! videoconvert ! video/x-raw,format=GRAY16_LE ! avenc_ffv1 ! matroskamux "
+                    "! filesink location=\"{}\"",
+                    path(name).string()),
+        cv::CAP_GSTREAMER, 0, 30, kSize,
+        {cv::VIDEOWRITER_PROP_IS_COLOR, 0, cv::VIDEOWRITER_PROP_DEPTH, CV_16U});
+    for (int k = 0; k < kFrames && writer.isOpened(); ++k) writer.write(depth_image(k));
+    return writer.isOpened();
+  }
+
+  void write_colour(const std::string& name, double rate_hz = 30, cv::Size size = kSize,
+                    int frames = kFrames) const {
+    cv::VideoWriter writer(path(name).string(), cv::CAP_OPENCV_MJPEG,
+                           cv::VideoWriter::fourcc('M', 'J', 'P', 'G'), rate_hz, size);
+    ASSERT_TRUE(writer.isOpened());
+    for (int k = 0; k < frames; ++k) writer.write(colour_image(k, size));
+  }
+
+  void write_png_packets(const std::string& name) const {
+    std::vector<std::vector<std::uint8_t>> packets;
+    for (int k = 0; k < kFrames; ++k) packets.push_back(encode_png(depth_image(k)));
+    write_matroska(path(name), fourcc("MPNG"), kSize, 16, 50, packets);
+  }
+
+  static std::uint32_t fourcc(const char* letters) {
+    return static_cast<std::uint32_t>(
+        cv::VideoWriter::fourcc(letters[0], letters[1], letters[2], letters[3]));
+  }
+
+  static std::string complaint(const std::string& source) {
+    try {
+      open_source(source);
+    } catch (const Error& error) {
+      EXPECT_EQ(error.status(), ExitStatus::unreadable);
+      return error.what();
+    }
+    return "";
+  }
+};
+
+void expect_depth(FrameSource& source, int k) {
+  Frame frame;
+  ASSERT_EQ(source.read(frame, kNoWait).status, ReadStatus::frame) << k;
+  EXPECT_EQ(frame.index, k);
+  const cv::Mat1w expected = depth_image(k);
+  ASSERT_EQ(frame.depth_mm.size(), expected.size());
+  for (int row = 0; row < expected.rows; ++row)
+    for (int column = 0; column < expected.cols; ++column)
+      ASSERT_EQ(frame.depth_mm(row, column), static_cast<float>(expected(row, column)));
+}
+
+// All frames in order, then any order.
+void expect_exact(FrameSource& source) {
+  Frame frame;
+  for (int k = 0; k < kFrames; ++k) expect_depth(source, k);
+  EXPECT_EQ(source.read(frame, kNoWait).status, ReadStatus::end);
+  for (const int k : {4, 1, 2, 5, 0}) {
+    source.seek(k);
+    expect_depth(source, k);
+  }
+  source.seek(kFrames + 3);
+  EXPECT_EQ(source.read(frame, kNoWait).status, ReadStatus::end);
+}
+
+TEST_F(VideoSourceTest, Ffv1InMatroskaIsExact) {
+  if (!write_ffv1("a b_depth.mkv")) GTEST_SKIP() << "GStreamer cannot write FFV1 here";
+  const auto source = open_source(path("a b_depth.mkv").string());
+  EXPECT_EQ(source->info().size, kSize);
+  EXPECT_NEAR(source->info().rate_hz, 30, 1e-6);
+  EXPECT_TRUE(source->info().has_depth);
+  EXPECT_FALSE(source->info().frame_count);
+  expect_exact(*source);
+  Frame frame;
+  for (const int k : {3, 4, 1}) {
+    source->seek(k);
+    source->read(frame, kNoWait);
+    EXPECT_NEAR(static_cast<double>(frame.timestamp_us), k * 1e6 / 30, 1000);
+  }
+}
+
+TEST_F(VideoSourceTest, PngInMatroskaIsExact) {
+  write_png_packets("p.mkv");
+  const auto source = open_source(path("p.mkv").string());
+  EXPECT_NEAR(source->info().rate_hz, 20, 1e-6);
+  expect_exact(*source);
+}
+
+TEST_F(VideoSourceTest, UncompressedGray16IsExact) {
+  std::vector<std::vector<std::uint8_t>> packets;
+  for (int k = 0; k < kFrames; ++k) {
+    const cv::Mat1w depth = depth_image(k);
+    packets.emplace_back(depth.data, depth.data + 2 * depth.total());
+  }
+  write_raw_matroska(path("r.mkv"), kSize, 50, packets);
+  expect_exact(*open_source(path("r.mkv").string()));
+}
+
+TEST_F(VideoSourceTest, ADamagedImageIsRejectedAndTheNextIsGood) {
+  std::vector<std::vector<std::uint8_t>> packets;
+  for (int k = 0; k < kFrames; ++k) packets.push_back(encode_png(depth_image(k)));
+  packets[2][packets[2].size() / 2] ^= 0xff;
+  packets[4] = encode_png(depth_image(4, {32, 48}));
+  write_matroska(path("p.mkv"), fourcc("MPNG"), kSize, 16, 50, packets);
+  const auto source = open_source(path("p.mkv").string());
+  for (int k = 0; k < kFrames; ++k) {
+    if (k != 2 && k != 4) {
+      expect_depth(*source, k);
+      continue;
+    }
+    Frame frame;
+    const ReadResult read = source->read(frame, kNoWait);
+    EXPECT_EQ(read.status, ReadStatus::rejected);
+    EXPECT_THAT(read.reason, HasSubstr(fmt::format("frame {}", k)));
+  }
+}
+
+TEST_F(VideoSourceTest, NumberedImagesAreExactWithColourBeside) {
+  for (int k = 0; k < kFrames; ++k) {
+    write_file(path(fmt::format("depth_{:04}.png", k)), encode_png(depth_image(k)));
+    write_file(path(fmt::format("rgb_{:04}.png", k)), encode_png(colour_image(k)));
+  }
+  write_file(path("meta.json"), std::string_view(R"({"fx":50,"fy":51,"cx":31,"cy":23})"));
+  const auto source = open_source(path("depth_%04d.png").string());
+  EXPECT_EQ(source->info().intrinsics.fx, 50);
+  expect_exact(*source);
+  for (const int k : {0, 1, 4, 2}) {
+    source->seek(k);
+    Frame frame;
+    source->read(frame, kNoWait);
+    ASSERT_EQ(frame.colour.size(), kSize);
+    EXPECT_EQ(frame.colour(3, 3), colour_image(k)(3, 3)) << k;
+  }
+}
+
+TEST_F(VideoSourceTest, ColourBesideAVideoIsTheNearestInTimeAndScaled) {
+  write_png_packets("a_depth.mkv");                   // every 50 ms
+  write_colour("a_rgb.avi", 40, {128, 96}, kFrames);  // every 25 ms
+  const auto source = open_source(path("a_depth.mkv").string());
+  EXPECT_THAT(source->info().notes, Contains(HasSubstr("scaled")));
+  for (const int k : {0, 1, 2, 1}) {
+    source->seek(k);
+    Frame frame;
+    ASSERT_EQ(source->read(frame, kNoWait).status, ReadStatus::frame);
+    ASSERT_EQ(frame.colour.size(), kSize) << k;
+    EXPECT_NEAR(frame.colour(9, 9)[0], 30 * 2 * k, 8) << k;
+  }
+  source->seek(5);  // 250 ms: the colour has ended at 125 ms
+  Frame frame;
+  EXPECT_THAT(source->read(frame, kNoWait).reason, HasSubstr("no colour"));
+  EXPECT_TRUE(frame.colour.empty());
+}
+
+TEST_F(VideoSourceTest, AColourVideoHasNoDepthAndSaysSo) {
+  write_colour("walk.avi", 25);
+  const auto source = open_source(path("walk.avi").string());
+  EXPECT_FALSE(source->info().has_depth);
+  EXPECT_THAT(source->info().notes, Contains(HasSubstr("no depth")));
+  EXPECT_NEAR(source->info().rate_hz, 25, 1e-6);
+  Frame frame;
+  for (const int k : {0, 1, 2, 3, 4, 5, 2, 0}) {
+    source->seek(k);
+    ASSERT_EQ(source->read(frame, kNoWait).status, ReadStatus::frame);
+    EXPECT_EQ(frame.index, k);
+    EXPECT_EQ(frame.timestamp_us, 40'000 * k);
+    EXPECT_NEAR(frame.colour(9, 9)[0], 30 * k, 8);
+    EXPECT_EQ(frame.depth_mm.size(), kSize);
+    EXPECT_EQ(cv::countNonZero(frame.depth_mm), 0);
+  }
+  source->seek(kFrames);
+  EXPECT_EQ(source->read(frame, kNoWait).status, ReadStatus::end);
+}
+
+TEST_F(VideoSourceTest, DepthOfEightBitsIsRefusedWithTheReason) {
+  write_colour("a_depth.avi");
+  EXPECT_THAT(complaint(path("a_depth.avi").string()), HasSubstr("8 bits"));
+  EXPECT_THAT(complaint(path("a_depth.avi").string()), HasSubstr("FFV1 gray16le"));
+  write_file(path("depth_0000.png"), encode_png(cv::Mat1b(kSize, std::uint8_t{7})));
+  EXPECT_THAT(complaint(path("depth_%04d.png").string()), HasSubstr("16-bit gray"));
+  // PNGs of 8 bits are colour, unless the name says that they are depth.
+  const std::vector<std::vector<std::uint8_t>> packets(3, encode_png(colour_image(1)));
+  write_matroska(path("c_depth.mkv"), fourcc("MPNG"), kSize, 24, 50, packets);
+  EXPECT_THAT(complaint(path("c_depth.mkv").string()), HasSubstr("8 bits"));
+  write_matroska(path("c.mkv"), fourcc("MPNG"), kSize, 24, 50, packets);
+  EXPECT_FALSE(open_source(path("c.mkv").string())->info().has_depth);
+}
+
+TEST_F(VideoSourceTest, WhatCannotBeReadIsToldInOneLineAndNothingElse) {
+  write_file(path("broken.mkv"), std::string_view("this is no video at all, whatever its name may say"));
+  write_file(path("empty.mp4"), std::string_view(""));
+  ::testing::internal::CaptureStderr();
+  EXPECT_THAT(complaint(path("broken.mkv").string()), HasSubstr("no video"));
+  EXPECT_THAT(complaint(path("empty.mp4").string()), HasSubstr("no video"));
+  EXPECT_THAT(complaint(path("none_%04d.png").string()), HasSubstr("no images"));
+  EXPECT_THAT(complaint(path("absent.mkv").string()), HasSubstr("no such source"));
+  EXPECT_THAT(complaint("v4l2:/dev/no_such_camera"), HasSubstr("no camera"));
+  EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
+}
+
+TEST(VideoNames, AreKnown) {
+  for (const char* name : {"a.mkv", "b/c.MP4", "d.nut", "e.avi"}) EXPECT_TRUE(is_video_name(name)) << name;
+  for (const char* name : {"a.oni", "b.png", "mkv", "c"}) EXPECT_FALSE(is_video_name(name)) << name;
+  for (const char* text : {"depth_%04d.png", "x/y_%d.png", "%06d.png"})
+    EXPECT_TRUE(is_image_pattern(text)) << text;
+  for (const char* text : {"depth.png", "a%%d.png", "%s.png", "%d_%d.png", "%04d.oni", "%4000x.png"})
+    EXPECT_FALSE(is_image_pattern(text)) << text;
+}
+
+}  // namespace
+}  // namespace saccade
