@@ -56,7 +56,7 @@ struct Symmetry3d::State {
   void find_points(bool normals_wanted);
   void find_symmetry();
   void add_levels(cv::Mat1f& master);
-  void copy_wanted(RequestedOutputs wants, SaliencyMaps& maps) const;
+  void copy_outputs(RequestedOutputs outputs, SaliencyMaps& maps) const;
 };
 
 void Symmetry3d::State::resize(cv::Size new_size) {
@@ -153,15 +153,15 @@ void Symmetry3d::State::add_levels(cv::Mat1f& master) {
   }
 }
 
-void Symmetry3d::State::copy_wanted(RequestedOutputs wants, SaliencyMaps& maps) const {
-  maps.levels.resize(wants.levels ? levels.size() - static_cast<std::size_t>(params.first_level) : 0);
+void Symmetry3d::State::copy_outputs(RequestedOutputs outputs, SaliencyMaps& maps) const {
+  maps.levels.resize(outputs.levels ? levels.size() - static_cast<std::size_t>(params.first_level) : 0);
   for (std::size_t i = 0; i < maps.levels.size(); ++i) {
     const LevelPlanes& level = levels[i + static_cast<std::size_t>(params.first_level)];
     maps.levels[i].create(level.height(), level.width());
     for (int r = 0; r < level.height(); ++r)
       std::copy_n(level.row(LevelPlanes::kScore, r), level.width(), maps.levels[i][r]);
   }
-  if (!wants.normals) return maps.normals.release();
+  if (!outputs.normals) return maps.normals.release();
   maps.normals.create(size);
   for (int r = 0; r < size.height; ++r)
     for (int c = 0; c < size.width; ++c)
@@ -175,7 +175,7 @@ Symmetry3d::Symmetry3d(const Symmetry3dParams& params, WorkerPool& pool, const s
 
 Symmetry3d::~Symmetry3d() = default;
 
-void Symmetry3d::compute(const cv::Mat1f& depth_mm, const Intrinsics& camera, RequestedOutputs wants,
+void Symmetry3d::compute(const cv::Mat1f& depth_mm, const Intrinsics& camera, RequestedOutputs outputs,
                          SaliencyMaps& maps, StageTimes& times) {
   if (!camera.valid())
     throw std::invalid_argument("Symmetry3d: intrinsics must be finite, focal lengths above 0");
@@ -184,14 +184,14 @@ void Symmetry3d::compute(const cv::Mat1f& depth_mm, const Intrinsics& camera, Re
   {
     const StageTimer timer(times, Stage::points);
     state.load_pyramid(depth_mm, camera);
-    state.find_points(wants.normals);
+    state.find_points(outputs.normals);
   }
   {
     const StageTimer timer(times, Stage::symmetry);
     state.find_symmetry();
   }
   const StageTimer timer(times, Stage::master_map);
-  state.copy_wanted(wants, maps);
+  state.copy_outputs(outputs, maps);
   state.add_levels(maps.master);
 }
 
