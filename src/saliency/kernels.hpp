@@ -21,7 +21,7 @@ struct DepthRange {
 /// these rows and nothing else (besides the scratch memory), and a row's bits do not depend on how rows are
 /// divided.
 struct Kernels {
-  std::string_view name;  ///< as in Settings::simd: "avx512", ...
+  std::string_view name;  ///< as in ModelSettings::simd: "avx512", ...
   int lanes;              ///< floats a vector
   int runs_from_reach;    ///< windows that reach so far need RowScratch::records
 
@@ -44,7 +44,7 @@ struct Kernels {
                              RowScratch& scratch);
 };
 
-/// The best kernels that `simd` (Settings::simd), the environment variable SACCADE_SIMD, this build and this
+/// The best kernels that `simd` (ModelSettings::simd), the environment variable SACCADE_SIMD, this build and this
 /// machine allow. Throws Error (usage) if one of the two names a set that cannot run here.
 const Kernels& choose_kernels(const std::string& simd);
 

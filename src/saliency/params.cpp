@@ -11,10 +11,6 @@ namespace {
 constexpr int kSmallestSide = 8;
 }
 
-Symmetry3dParams Symmetry3dParams::from(const Settings& s) {
-  return {s.kernel, s.first_level, s.last_level, s.length_scale, s.normalisation};
-}
-
 cv::Size level_size(cv::Size image, int level) {
   for (int l = 0; l < level; ++l) image = {(image.width + 1) / 2, (image.height + 1) / 2};
   return image;
@@ -27,12 +23,6 @@ int deepest_level(cv::Size image) {
     ++level;
   }
   return level;
-}
-
-int last_level_for(const Settings& settings, cv::Size image) {
-  const int deepest = deepest_level(image);
-  if (settings.levels_chosen || deepest < 0) return settings.last_level;
-  return std::min(settings.last_level, deepest);
 }
 
 void check_levels(cv::Size image, const Symmetry3dParams& params) {
