@@ -1,17 +1,12 @@
-# OpenNI2, and the folder from which a program of ours loads it together with its driver modules.
-#
-# OpenNI2 looks for driver modules in the folder OpenNI2/Drivers beside the libOpenNI2.so.0 that was loaded, and a
-# symbolic link counts as the place where it lies. So a folder with a link to the library, links to the stock modules
-# and our own modules makes all sensors known to any program that loads the library from there:
-#
-#   <build>/openni2/            or  <prefix>/lib/saccade/openni2/
-#     libOpenNI2.so.0               -> the system's
-#     OpenNI2/Drivers/
-#       libPS1080.so.0, libPSLink.so.0  -> the system's
-#       libSaccadeVirtual.so.0, libSaccadeFreenect.so.0  drivers/modules
-#
-# saccade_use_sensors(TARGET) makes a program or test do so, without any environment variable. A library that only calls
-# OpenNI2 links OpenNI2::OpenNI2. Other programs, such as NiViewer2, see our devices with LD_LIBRARY_PATH=<that folder>.
+# OpenNI2, and the folder from which our programs load it together with its driver modules; drivers/README.md has the
+# layout and the reason. A library that only calls OpenNI2 links OpenNI2::OpenNI2; saccade_use_sensors(TARGET) makes a
+# program or test load it from that folder. Without SACCADE_OPENNI2 nothing is looked for.
+if(NOT SACCADE_OPENNI2)
+  function(saccade_use_sensors target)
+  endfunction()
+  return()
+endif()
+
 find_library(OPENNI2_LIBRARY OpenNI2 REQUIRED)
 find_path(OPENNI2_INCLUDE_DIR OpenNI.h PATH_SUFFIXES openni2 REQUIRED)
 add_library(OpenNI2::OpenNI2 INTERFACE IMPORTED GLOBAL)
@@ -19,7 +14,7 @@ target_link_libraries(OpenNI2::OpenNI2 INTERFACE ${OPENNI2_LIBRARY})
 target_include_directories(OpenNI2::OpenNI2 SYSTEM INTERFACE ${OPENNI2_INCLUDE_DIR})
 
 set(SACCADE_REDIST ${PROJECT_BINARY_DIR}/openni2)
-set(SACCADE_REDIST_INSTALLED lib/saccade/openni2)
+set(SACCADE_REDIST_INSTALLED ${CMAKE_INSTALL_LIBDIR}/saccade/openni2)
 cmake_path(GET OPENNI2_LIBRARY PARENT_PATH openni2_home)
 foreach(file libOpenNI2.so.0 OpenNI2/Drivers/libPS1080.so.0 OpenNI2/Drivers/libPSLink.so.0)
   if(NOT EXISTS ${openni2_home}/${file})
@@ -37,23 +32,34 @@ function(saccade_driver_module name)
   cmake_parse_arguments(arg "" "" "SOURCES;LINK" ${ARGN})
   add_library(${name} MODULE ${arg_SOURCES})
   target_link_libraries(${name} PRIVATE saccade_flags ${arg_LINK})
-  # OpenNI2 unloads its modules when a program is done with it; the libraries below ours do not bear that, so the
-  # module stays.
+  # OpenNI2 unloads its modules when a program has finished with it; the libraries below ours do not support that, so
+  # the module stays.
   target_link_options(${name} PRIVATE
     LINKER:--version-script=${CMAKE_CURRENT_SOURCE_DIR}/exports.map LINKER:-z,nodelete)
   set_target_properties(${name} PROPERTIES
     SUFFIX .so.0 LIBRARY_OUTPUT_DIRECTORY ${SACCADE_REDIST}/OpenNI2/Drivers
-    LINK_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/exports.map)
+    LINK_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/exports.map
+    BUILD_WITH_INSTALL_RPATH ON)
   install(TARGETS ${name} LIBRARY DESTINATION ${SACCADE_REDIST_INSTALLED}/OpenNI2/Drivers)
   add_dependencies(saccade_driver_modules ${name})
 endfunction()
 
+# saccade_use_sensors(TARGET [INSTALLED]); INSTALLED: the program is installed into CMAKE_INSTALL_BINDIR and built into
+# PROJECT_BINARY_DIR.
 function(saccade_use_sensors target)
+  cmake_parse_arguments(arg "INSTALLED" "" "" ${ARGN})
   target_link_libraries(${target} PRIVATE OpenNI2::OpenNI2)
   add_dependencies(${target} saccade_driver_modules)
   if(SACCADE_SANITIZE MATCHES address)
     target_sources(${target} PRIVATE ${PROJECT_SOURCE_DIR}/tests/support/keep_modules.cpp)
   endif()
+  if(NOT arg_INSTALLED)
+    set_target_properties(${target} PROPERTIES BUILD_RPATH ${SACCADE_REDIST})
+    return()
+  endif()
+  # One RUNPATH for the build tree and for the installed program. Where they differ, CMake ends that of the build tree
+  # with an empty entry, and there the loader looks in the working directory.
+  file(RELATIVE_PATH installed ${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_FULL_LIBDIR}/saccade/openni2)
   set_target_properties(${target} PROPERTIES
-    BUILD_RPATH ${SACCADE_REDIST} INSTALL_RPATH $ORIGIN/../${SACCADE_REDIST_INSTALLED})
+    BUILD_WITH_INSTALL_RPATH ON INSTALL_RPATH "$ORIGIN/openni2;$ORIGIN/${installed}")
 endfunction()

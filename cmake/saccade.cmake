@@ -1,32 +1,43 @@
 # How every target of this project is built.
 
-# Flags of our own code. Libraries' headers are system headers and stay silent.
+# Flags of our own code, which nobody who uses the libraries inherits. The headers of other libraries are system headers
+# and stay silent.
 add_library(saccade_flags INTERFACE)
 target_compile_options(saccade_flags INTERFACE
-  -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wnon-virtual-dtor -Wold-style-cast -Wcast-align -Werror)
+  -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wnon-virtual-dtor -Wold-style-cast -Wcast-align)
+if(SACCADE_WERROR)
+  target_compile_options(saccade_flags INTERFACE -Werror)
+endif()
 if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
   target_compile_options(saccade_flags INTERFACE -Wno-restrict)  # GCC 12 warns falsely of "x" + std::string
 endif()
-# The reference and the maps must not depend on the compiler's mood: a contraction into fused multiply-adds only
-# where the code says so.
+# Results must not depend on the compiler: multiplications and additions are fused only where the code says so.
 target_compile_options(saccade_flags INTERFACE -ffp-contract=off)
 target_include_directories(saccade_flags INTERFACE ${PROJECT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR})
+
 if(SACCADE_SANITIZE)
-  target_compile_options(saccade_flags INTERFACE
+  add_compile_options(
     -fsanitize=${SACCADE_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer
     -Wno-maybe-uninitialized)  # GCC warns falsely in instrumented code
-  target_link_options(saccade_flags INTERFACE -fsanitize=${SACCADE_SANITIZE})
+  add_link_options(-fsanitize=${SACCADE_SANITIZE})
 endif()
 
 # OpenCV's headers flood -Wconversion; its imported targets are system includes already.
 add_library(saccade_opencv INTERFACE)
+add_library(saccade::opencv ALIAS saccade_opencv)
 target_link_libraries(saccade_opencv INTERFACE opencv_core opencv_imgproc opencv_imgcodecs)
 target_include_directories(saccade_opencv SYSTEM INTERFACE ${OpenCV_INCLUDE_DIRS})
 
-# saccade_library(NAME SOURCES file... LINK target...): the library saccade_NAME of one folder.
+# saccade_library(NAME SOURCES file... LINK target... PRIVATE_LINK target...): the library saccade::NAME of one folder.
 function(saccade_library name)
   cmake_parse_arguments(arg "" "" "SOURCES;LINK;PRIVATE_LINK" ${ARGN})
   add_library(saccade_${name} STATIC ${arg_SOURCES})
-  target_link_libraries(saccade_${name} PUBLIC saccade_flags ${arg_LINK} PRIVATE ${arg_PRIVATE_LINK})
-  set_target_properties(saccade_${name} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+  add_library(saccade::${name} ALIAS saccade_${name})
+  target_link_libraries(saccade_${name}
+    PUBLIC ${arg_LINK}
+    PRIVATE $<BUILD_INTERFACE:saccade_flags> ${arg_PRIVATE_LINK})
+  target_include_directories(saccade_${name} PUBLIC
+    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src> $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>)
+  target_compile_features(saccade_${name} PUBLIC cxx_std_20)
+  set_target_properties(saccade_${name} PROPERTIES POSITION_INDEPENDENT_CODE ON EXPORT_NAME ${name})
 endfunction()

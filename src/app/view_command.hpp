@@ -8,7 +8,7 @@
 
 namespace saccade {
 
-/// Where the bundled recording is, seen from the program's file: in share/saccade beside its bin, or in
+/// Where the bundled recording is, seen from the program's file: in the installed data (share/saccade), or in
 /// recordings/ of a folder above (a build tree). Empty if it is in neither.
 std::filesystem::path find_bundled_recording(const std::filesystem::path& program);
 
