@@ -11,6 +11,11 @@ namespace {
 constexpr int kSmallestSide = 8;
 }
 
+std::optional<double> Symmetry3dParams::lambda_px() const {
+  if (length_scale == LengthScale::millimetre) return std::nullopt;
+  return 0.05 * kernel;
+}
+
 cv::Size level_size(cv::Size image, int level) {
   for (int l = 0; l < level; ++l) image = {(image.width + 1) / 2, (image.height + 1) / 2};
   return image;
