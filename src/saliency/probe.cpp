@@ -24,8 +24,7 @@ Corners corners_at(int level, cv::Size size, int row, int col) {
           y - row0, x - col0};
 }
 
-// The part of `rect` within the image, begun at an even position, so that halving keeps the even pixels of
-// the image.
+// The part of `rect` within the image, from an even position on, so that halving keeps the even pixels.
 cv::Rect fitted(cv::Rect rect, cv::Size size) {
   rect &= cv::Rect({}, size);
   const int odd_x = rect.x % 2, odd_y = rect.y % 2;

@@ -52,8 +52,7 @@ cv::Mat1d halve(const cv::Mat1d& depth) {
 
 namespace {
 
-// Section 1.3: fits the plane 1/z = a*x + b*y + c to the pixels of the 5 x 5 window that continue the
-// centre's surface.
+// Section 1.3: fits 1/z = a*x + b*y + c to the pixels of the 5 x 5 window that continue the surface.
 std::optional<Vector3d> normal_at(const cv::Mat1d& depth, const Intrinsics& camera, int row, int col) {
   constexpr int kReach = 2;
   constexpr double kSameSurface = 0.02;

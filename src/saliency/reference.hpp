@@ -10,8 +10,8 @@
 #include "core/intrinsics.hpp"
 #include "saliency/params.hpp"
 
-/// The operator as README.md in this folder has it, in double and one pixel at a time: slow, and written to
-/// be read. Symmetry3d is the fast form; tests compare it with this one. Equation numbers are the paper's
+/// The operator that README.md in this folder describes, in double and one pixel at a time: slow, and written
+/// to be read. Symmetry3d is the fast form; tests compare the two. Equation numbers are those of the paper
 /// (Potapova, Zillich, Vincze, "Local 3D Symmetry for Visual Saliency in 2.5D Point Clouds"), sections those
 /// of README.md.
 namespace saccade::reference {

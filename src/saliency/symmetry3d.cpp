@@ -96,8 +96,7 @@ void Symmetry3d::State::find_symmetry() {
   });
 }
 
-// Section 3. Goes from the coarsest level down; the sum of a level and the coarser ones takes the place of
-// its map.
+// Section 3, from the coarsest level down: the sum of a level and all coarser ones replaces its map.
 void Symmetry3d::State::add_levels(cv::Mat1f& master) {
   LevelPlanes& coarsest = pyramid[params.last_level];
   coarsest.scale_scores(level_weight(coarsest, params.normalisation));

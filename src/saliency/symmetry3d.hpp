@@ -33,8 +33,8 @@ struct SaliencyMaps {
 /// nothing after the first frame of a size. Thread safety: one compute() at a time per object.
 class Symmetry3d {
  public:
-  /// `simd` as in Settings::simd; throws Error (usage) if this machine cannot run it. `pool` must outlive
-  /// this object.
+  /// `simd` as in ModelSettings::simd; throws Error (usage) if this machine cannot run it. `pool` must
+  /// outlive this object.
   Symmetry3d(const Symmetry3dParams& params, WorkerPool& pool, const std::string& simd = "auto");
   ~Symmetry3d();
   Symmetry3d(const Symmetry3d&) = delete;
