@@ -7,6 +7,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "core/error.hpp"
+#include "sources/source_kind.hpp"
 
 namespace saccade {
 namespace {
@@ -162,5 +163,21 @@ std::string OniSource::read_colour(const OniFrameEntry& depth_frame, cv::Mat3b& 
         colour_image_.total() > static_cast<std::size_t>(size.area()) ? cv::INTER_AREA : cv::INTER_LINEAR);
   return {};
 }
+
+namespace {
+constexpr std::string_view kEndings[] = {".oni"};
+}
+
+extern const SourceKind kOniKind = {
+    .name = "oni",
+    .written = "FILE.oni",
+    .help = "a recording of OpenNI 1.x or OpenNI2, also a truncated or damaged one",
+    .recognised_by = "the ending, or the first bytes NI10",
+    .endings = kEndings,
+    .recognises = [](const SourceInput& input) { return input.head.starts_with("NI10"); },
+    .open = [](const SourceInput& input, const SensorSettings&) -> std::unique_ptr<FrameSource> {
+      return std::make_unique<OniSource>(input.path);
+    },
+};
 
 }  // namespace saccade

@@ -16,6 +16,7 @@
 #include "core/error.hpp"
 #include "scene/random.hpp"
 #include "scene/strips.hpp"
+#include "sources/source_kind.hpp"
 
 namespace saccade {
 namespace {
@@ -205,5 +206,17 @@ void SyntheticSource::seek(std::int64_t index) {
   if (index < 0) throw std::invalid_argument("SyntheticSource: negative frame index");
   next_ = index;
 }
+
+extern const SourceKind kSyntheticKind = {
+    .name = "synthetic",
+    .written = "synthetic:NAME?KEY=VALUE&...",
+    .help = "a ray-cast scene with exact labels: cone, cube, cylinder, sphere, table or room",
+    .recognised_by = "synthetic:",
+    .recognises = [](const SourceInput& input) { return input.uri.starts_with(kScheme); },
+    .open = [](const SourceInput& input, const SensorSettings&) -> std::unique_ptr<FrameSource> {
+      return std::make_unique<SyntheticSource>(input.uri);
+    },
+    .is_path = false,
+};
 
 }  // namespace saccade

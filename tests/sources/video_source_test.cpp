@@ -1,5 +1,3 @@
-#include "sources/video_source.hpp"
-
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -242,15 +240,6 @@ TEST_F(VideoSourceTest, WhatCannotBeReadIsToldInOneLineAndNothingElse) {
   EXPECT_THAT(complaint(path("absent.mkv").string()), HasSubstr("no such source"));
   EXPECT_THAT(complaint("v4l2:/dev/no_such_camera"), HasSubstr("no camera"));
   EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
-}
-
-TEST(VideoNames, AreKnown) {
-  for (const char* name : {"a.mkv", "b/c.MP4", "d.nut", "e.avi"}) EXPECT_TRUE(is_video_name(name)) << name;
-  for (const char* name : {"a.oni", "b.png", "mkv", "c"}) EXPECT_FALSE(is_video_name(name)) << name;
-  for (const char* text : {"depth_%04d.png", "x/y_%d.png", "%06d.png"})
-    EXPECT_TRUE(is_image_pattern(text)) << text;
-  for (const char* text : {"depth.png", "a%%d.png", "%s.png", "%d_%d.png", "%04d.oni", "%4000x.png"})
-    EXPECT_FALSE(is_image_pattern(text)) << text;
 }
 
 }  // namespace
