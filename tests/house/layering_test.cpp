@@ -19,7 +19,8 @@ using ::testing::SizeIs;
 
 const Floors kHouse = {
     {"src/core"},
-    {"src/scene", "src/oni", "drivers/openni2", "src/saliency"},
+    {"src/scene", "src/oni", "drivers/openni2", "src/saliency/simd"},
+    {"src/saliency"},
     {"src/models", "src/attention", "src/sources"},
     {"src/pipeline", "drivers/modules"},
     {"src/output"},
