@@ -58,13 +58,13 @@ bool read_choice(string_view text, string_view first, Enum a, string_view second
 
 struct Key {
   string_view name, expects;
-  bool (*read)(string_view, SyntheticSpec&);  // false: not what is expected
+  bool (*read)(string_view, SyntheticSpec&);  // false: another value than expected
 };
 
 using Spec = SyntheticSpec;
 
 constexpr std::array<Key, 10> kKeys = {{
-    {"seed", "a whole number, 0..9007199254740992",
+    {"seed", "an integer, 0..9007199254740992",
      [](string_view v, Spec& s) { return read_number<std::uint64_t>(v, 0, std::uint64_t{1} << 53, s.seed); }},
     {"noise", "none or kinect",
      [](string_view v, Spec& s) {
@@ -72,9 +72,9 @@ constexpr std::array<Key, 10> kKeys = {{
      }},
     {"missing", "a share of the pixels, 0..0.9",
      [](string_view v, Spec& s) { return read_number<double>(v, 0, 0.9, s.missing); }},
-    {"frames", "a whole number, 1..1000000",
+    {"frames", "an integer, 1..1000000",
      [](string_view v, Spec& s) { return read_number<std::int64_t>(v, 1, 1'000'000, s.frames); }},
-    {"scenes", "a whole number, 1..1000000",
+    {"scenes", "an integer, 1..1000000",
      [](string_view v, Spec& s) { return read_number<std::int64_t>(v, 1, 1'000'000, s.scenes); }},
     {"size", "WxH with both in 1..8192, e.g. 640x480",
      [](string_view v, Spec& s) { return read_size(v, s.size); }},
@@ -84,7 +84,7 @@ constexpr std::array<Key, 10> kKeys = {{
      }},
     {"rate", "Hz, 0.1..1000",
      [](string_view v, Spec& s) { return read_number<double>(v, 0.1, 1000, s.rate_hz); }},
-    {"objects", "a whole number, 1..20, of the scene table only",
+    {"objects", "an integer, 1..20; the scene table only",
      [](string_view v, Spec& s) {
        return s.scene == "table" && read_number<int>(v, 1, scene::kMostTableObjects, s.objects);
      }},

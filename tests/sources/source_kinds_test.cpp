@@ -1,6 +1,7 @@
 // The table of sources: which row an input belongs to, and what reads from the table.
 #include "sources/source_kind.hpp"
 
+#include <fstream>
 #include <set>
 #include <string>
 #include <vector>
@@ -137,10 +138,18 @@ std::string table() {
   return text;
 }
 
-TEST_F(SourceKinds, TheReadmeHasTheTable) {
-  const auto bytes = read_file(fs::path(SACCADE_SOURCE_DIR) / "src/sources/README.md");
-  EXPECT_THAT(std::string(bytes.begin(), bytes.end()), HasSubstr("\n" + table() + "\n"));
+// The table that stands there.
+std::string table_of_readme() {
+  std::ifstream file(fs::path(SACCADE_SOURCE_DIR) / "src/sources/README.md");
+  std::string text;
+  for (std::string line; std::getline(file, line);) {
+    if (line.starts_with("| SOURCE") || (!text.empty() && line.starts_with('|'))) text += line + "\n";
+    if (line.empty() && !text.empty()) break;
+  }
+  return text;
 }
+
+TEST_F(SourceKinds, TheReadmeHasTheTable) { EXPECT_EQ(table_of_readme(), table()); }
 
 TEST_F(SourceKinds, APartThatThisBuildLeavesOutIsNamed) {
   for (const SourceKind* row : source_kinds()) {
