@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "sources/source_kind.hpp"
 
 namespace saccade {
 namespace {
@@ -118,9 +119,8 @@ VirtualSpec parse_virtual(const std::string& text) {
 }
 
 std::string seen_from(const std::filesystem::path& folder, const std::string& source) {
-  for (const char* scheme : {"openni2", "synthetic:", "v4l2:"})
-    if (source.starts_with(scheme)) return source;
-  return (folder / source).lexically_normal();
+  const SourceKind* kind = kind_of(SourceInput(source));
+  return kind != nullptr && !kind->is_path ? source : (folder / source).lexically_normal().string();
 }
 
 }  // namespace saccade

@@ -23,14 +23,11 @@ std::string load_problem(const fs::path& module) {
 
 }  // namespace
 
-const OpenNi2Installation::Module* OpenNi2Installation::module(const std::string& name) const {
-  const auto found =
-      std::find_if(modules.begin(), modules.end(), [&](const auto& m) { return m.name == name; });
-  return found == modules.end() ? nullptr : &*found;
-}
-
 OpenNi2Installation find_openni2() {
   OpenNi2Installation found;
+#ifdef SACCADE_NO_FREENECT
+  found.left_out = {"SaccadeFreenect"};
+#endif
   const openni::Version version = openni::OpenNI::getVersion();
   found.version =
       fmt::format("{}.{}.{}.{}", version.major, version.minor, version.maintenance, version.build);
