@@ -1,0 +1,40 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/settings.hpp"
+
+namespace saccade {
+
+/// The settings that a person tunes: A's, and B's for comparison.
+struct ComparedSettings {
+  Settings a, b;
+  bool operator==(const ComparedSettings& other) const;
+};
+
+/// True if both print the same values for every setting.
+bool same_settings(const Settings& a, const Settings& b);
+
+/// The keys that A and B have each for itself. All others are of the source and of the program, and A's hold
+/// for both.
+std::span<const std::string_view> compared_keys();
+
+/// Makes the tuned settings of `to` those of `from`; the others stay.
+void copy_compared(const Settings& from, Settings& to);
+
+void swap_sides(ComparedSettings& settings);
+
+/// Makes all settings of B that are not tuned those of A.
+void share_source(ComparedSettings& settings);
+
+/// Reads a TOML file into A, or into B: what the file does not say of the tuned settings becomes the default;
+/// what it says of camera, sensor and instruction set
+/// holds for both sides. Returns the keys of the file that say
+/// something else than what holds and that a window does not take up while it runs, such as "workers". Throws
+/// as load_settings(); the tuning is then as it was.
+std::vector<std::string> load_compared(ComparedSettings& settings, bool into_b, const std::string& path);
+
+}  // namespace saccade
