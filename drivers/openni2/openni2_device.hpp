@@ -12,7 +12,7 @@
 #include "core/intrinsics.hpp"
 #include "core/outcome.hpp"
 #include "core/sensor_controls.hpp"
-#include "core/settings.hpp"
+#include "core/sensor_settings.hpp"
 #include "drivers/openni2/openni2_runtime.hpp"
 
 namespace saccade {

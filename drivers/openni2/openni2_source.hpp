@@ -8,7 +8,7 @@
 #include <string>
 
 #include "core/frame_source.hpp"
-#include "core/settings.hpp"
+#include "core/sensor_settings.hpp"
 #include "drivers/openni2/frame_pairing.hpp"
 #include "drivers/openni2/sensor_connection.hpp"
 #include "drivers/openni2/stream_clock.hpp"

@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "core/frame_source.hpp"
-#include "core/settings.hpp"
+#include "core/sensor_settings.hpp"
 
 namespace saccade {
 
