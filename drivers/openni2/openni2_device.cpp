@@ -50,10 +50,10 @@ std::optional<bool> truth(const openni::VideoStream& stream, int id) {
 
 }  // namespace
 
-// OpenNI2 crashes or hangs in stop() and destroy() where a NewFrameListener is still attached: its own thread
-// may be inside the listener (12 and 18 of 80 runs with one; none of 80 without, or with one removed before
-// stop()). So nothing listens here: one thread waits, reads and closes, no frame is held past its copy, and
-// no pause is needed.
+// OpenNI2 crashes or hangs in stop() and destroy() while a NewFrameListener is attached, because its own
+// thread may be inside the listener (12 and 18 of 80 runs with a listener; none of 80 without one, or with
+// one removed before stop()). So there is no listener: one thread waits, reads and closes, no frame is held
+// after it is copied, and no pause is needed.
 struct OpenNi2Device::Streams {
   ~Streams() {
     for (openni::VideoStream* stream : {&depth, &colour})
@@ -142,7 +142,7 @@ void OpenNi2Device::apply(const SensorValues& wanted) {
 }
 
 void OpenNi2Device::note_differences(const SensorValues& wanted) {
-  // `usual` is what a device without the setting does, which needs no word if it is what was wanted.
+  // `usual` is how a device without the setting behaves; if that was wanted there is nothing to report.
   const auto compare = [&](const char* what, std::optional<bool> asked, std::optional<bool> is, bool usual) {
     if (!asked || *asked == is.value_or(usual)) return;
     notes_.push_back(fmt::format("{} was turned {}, but the device {}", what, *asked ? "on" : "off",

@@ -42,8 +42,7 @@ class OpenNi2Device {
 
   /// As read back after they were last set.
   const SensorValues& values() const { return values_; }
-  /// Sets the values that `wanted` has and reads them back; the differences replace those of the last time in
-  /// notes().
+  /// Sets the values that `wanted` has and reads them back; notes() then has the new differences.
   void apply(const SensorValues& wanted);
 
   /// Waits for a frame; the stream that has one.

@@ -15,8 +15,7 @@
 
 namespace saccade {
 
-/// A live sensor, through OpenNI2. `openni2` is the first one that is connected, `openni2:URI` a particular
-/// one.
+/// A live sensor, through OpenNI2: `openni2` is the first one that is connected, `openni2:URI` names one.
 ///
 /// Each depth frame is a frame; one whose memory is too short for its size is `rejected`. Its colour is of
 /// the same moment, to half a period (FramePairing).

@@ -111,8 +111,7 @@ class RawPackets final : public CaptureVideo {
 
 class DecodedFrames final : public CaptureVideo {
  public:
-  // `clock` reads the same frames, for their times: those of a GStreamer pipeline run ahead of the frames
-  // read.
+  // `clock` reads the same frames, for their times: those of a GStreamer pipeline run ahead.
   DecodedFrames(cv::VideoCapture capture, cv::Size size, cv::VideoCapture clock = {})
       : CaptureVideo(std::move(capture), size), clock_(std::move(clock)) {}
 

@@ -39,8 +39,8 @@ class DepthVideo {
 /// not a video, or 16 bits that could only be read as 8.
 std::unique_ptr<DepthVideo> open_depth_video(const std::filesystem::path& path);
 
-/// Opens numbered 16-bit PNGs, e.g. "depth_%04d.png". Throws Error (unreadable): none found, or not 16-bit
-/// grey.
+/// Opens numbered 16-bit PNGs, e.g. "depth_%04d.png". Throws Error (unreadable): there are none, or they are
+/// not 16-bit grey.
 std::unique_ptr<DepthVideo> open_depth_images(const std::string& pattern);
 
 }  // namespace saccade

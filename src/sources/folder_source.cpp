@@ -35,8 +35,8 @@ Outcome usable(const PngHeader& header) {
 
 bool is_cloud(const fs::path& path) { return ending_of(path) == ".pcd"; }
 
-// Labels of a coloured image: black is no object, the other colours are 1, 2, .. in the order of their
-// values.
+// Labels of a coloured image: black is no object; the other colours, in the order of their values, are
+// 1, 2, ..
 cv::Mat1w labels_of_colours(const cv::Mat3b& image) {
   constexpr std::size_t kMost = 65535;
   std::map<int, std::uint16_t> labels;

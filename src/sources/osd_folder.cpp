@@ -59,9 +59,8 @@ bool has_osd_folders(const SourceInput& input) {
          (holds("image_color") || holds("annotation"));
 }
 
-// The frames in the natural order of their names (learn2 before learn10): one for each name in the depth
-// folders, of the first of these that has it, with the files of the same name in image_color/ and
-// annotation/.
+// The frames in the natural order of their names (learn2 before learn10): for each name the file of the first
+// depth folder that has it, with the files of the same name in image_color/ and annotation/.
 FolderListing list_osd(const fs::path& folder) {
   const auto colour = files_of(folder / "image_color", {".png", ".jpg", ".jpeg"});
   const auto labels = files_of(folder / "annotation", {".png"});

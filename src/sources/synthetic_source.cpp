@@ -178,8 +178,7 @@ ReadResult SyntheticSource::read(Frame& frame, std::chrono::milliseconds) {
   frame.timestamp_us = std::llround(static_cast<double>(index) * 1e6 / spec_.rate_hz);
   frame.name.clear();
   frame.intrinsics = info_.intrinsics;
-  // What a still camera sees of one scene is rendered once and shared by all frames; else view_ is rendered
-  // over.
+  // A still camera's view of one scene is rendered once and shared by all frames.
   const bool rendered_once = spec_.camera == SyntheticSpec::Camera::still && spec_.scenes == 1;
   const auto give = [rendered_once](const auto& seen, auto& to) {
     if (rendered_once)

@@ -154,8 +154,7 @@ std::unique_ptr<ColourVideo> colour_of_video(const fs::path& path, double rate_h
   return nullptr;
 }
 
-// The images whose pattern has "rgb" for the last "depth" of the name, as .png or .jpg; nullptr if there are
-// none.
+// The images (.png or .jpg) whose pattern has "rgb" for the last "depth" of the name; nullptr without any.
 std::unique_ptr<ColourVideo> colour_of_images(const std::string& pattern, double rate_hz) {
   const fs::path path(pattern);
   std::string name = path.stem().string();

@@ -17,8 +17,8 @@ struct Include {
   std::string to;
 };
 
-/// The includes of all .hpp and .cpp files in src/, drivers/ and ui/ of `root`. `to` is looked for where the
-/// compiler looks, in src/ and in the root; what is in neither, such as a generated header, counts as in
+/// The includes of all .hpp and .cpp files in src/, drivers/ and ui/ of `root`. `to` is looked for in src/
+/// and in the root, as the compiler does; a file that is in neither, such as a generated one, counts as in
 /// src/.
 std::vector<Include> find_includes(const std::filesystem::path& root);
 

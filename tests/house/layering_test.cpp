@@ -24,6 +24,7 @@ const Floors kHouse = {
     {"src/models", "src/attention", "src/sources"},
     {"src/pipeline", "drivers/modules"},
     {"src/output"},
+    {"src/settings"},
     {"src/eval", "ui"},
     {"ui/viewer"},
     {"src/app"},

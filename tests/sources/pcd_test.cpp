@@ -117,7 +117,7 @@ INSTANTIATE_TEST_SUITE_P(Encodings, PcdTest,
 TEST(Pcd, AHeaderWithoutEnd) {
   EXPECT_THAT(reason({}), HasSubstr("no DATA line"));
   EXPECT_THAT(reason(bytes_of("# .PCD v0.7\nVERSION 0.7\nWIDTH 4\n")), HasSubstr("no DATA line"));
-  EXPECT_THAT(reason(bytes_of("WIDTH\n")), HasSubstr("nothing behind WIDTH"));
+  EXPECT_THAT(reason(bytes_of("WIDTH\n")), HasSubstr("nothing follows WIDTH"));
 }
 
 TEST(Pcd, PointsThatFitNoCameraGiveNone) {
