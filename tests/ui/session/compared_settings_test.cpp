@@ -40,21 +40,16 @@ Settings all_changed() {
   return s;
 }
 
-bool is_tuned(std::string_view key) {
-  const auto keys = compared_keys();
-  return std::find(keys.begin(), keys.end(), key) != keys.end();
-}
-
-TEST(Tuning, TheTunedSettingsAreCopiedAndNoOthers) {
+TEST(ComparedSettings, TheTunedSettingsAreCopiedAndNoOthers) {
   const Settings from = all_changed(), defaults;
   Settings to;
   copy_compared(from, to);
   for (const SettingSpec& spec : setting_specs())
-    EXPECT_EQ(spec.print(to), spec.print(is_tuned(spec.key) ? from : defaults)) << spec.key;
+    EXPECT_EQ(spec.print(to), spec.print(is_compared(spec) ? from : defaults)) << spec.key;
   EXPECT_TRUE(to.levels_chosen);
 }
 
-TEST(Tuning, SidesShareSourceAndProgram) {
+TEST(ComparedSettings, SidesShareSourceAndProgram) {
   ComparedSettings settings{all_changed(), {}};
   share_source(settings);
   EXPECT_EQ(settings.b.model, Settings{}.model);
