@@ -40,7 +40,7 @@ Settings all_changed() {
   return s;
 }
 
-TEST(Tuning, TheTunedSettingsAreCopiedAndNoOthers) {
+TEST(ComparedSettings, TheTunedSettingsAreCopiedAndNoOthers) {
   const Settings from = all_changed(), defaults;
   Settings to;
   copy_compared(from, to);
@@ -49,7 +49,7 @@ TEST(Tuning, TheTunedSettingsAreCopiedAndNoOthers) {
   EXPECT_TRUE(to.levels_chosen);
 }
 
-TEST(Tuning, SidesShareSourceAndProgram) {
+TEST(ComparedSettings, SidesShareSourceAndProgram) {
   ComparedSettings settings{all_changed(), {}};
   share_source(settings);
   EXPECT_EQ(settings.b.model, Settings{}.model);
