@@ -43,7 +43,7 @@ std::vector<std::string> load_compared(ComparedSettings& settings, bool into_b, 
   settings.a.intrinsics = loaded.intrinsics;
   settings.a.sensor = loaded.sensor;
   copy_compared(loaded, into_b ? settings.b : settings.a);
-  share_source(tuning);
+  share_source(settings);
   std::vector<std::string> left;
   for (const SettingSpec& spec : setting_specs())
     if (!is_compared(spec) && spec.print(loaded) != spec.print(settings.a)) left.emplace_back(spec.key);
