@@ -25,7 +25,7 @@ const OniNode& need_depth(const Recording& recording) {
     const OniFormat format = format_at(node, std::numeric_limits<std::uint64_t>::max());
     streams += fmt::format("{}{} with {} frames", streams.empty() ? "" : ", ", to_string(node.declared.type),
                            node.frames.size());
-    if (!format.unusable.empty()) streams += fmt::format(", {}", format.unusable);
+    if (format.unusable) streams += fmt::format(", {}", *format.unusable);
   }
   throw unreadable("no depth frames in this recording", recording.file().name(),
                    streams.empty() ? "it holds no streams" : fmt::format("it holds {}", streams));
@@ -35,7 +35,7 @@ const OniNode& need_depth(const Recording& recording) {
 OniFormat first_format(const Recording& recording, const OniNode& node) {
   for (std::size_t k = 0; k < node.frames.size(); ++k) {
     OniFormat format = recording.format(node, k);
-    if (format.unusable.empty()) return format;
+    if (!format.unusable) return format;
   }
   return {};
 }
@@ -130,27 +130,30 @@ ReadResult OniSource::read(Frame& frame, std::chrono::milliseconds) {
   frame.name.clear();
   frame.truth = {};
   frame.intrinsics = info_.intrinsics;
-  if (const OniFormat format = recording_.format(*depth_, k);
-      format.unusable.empty() && format.size != info_.size)
+  if (const OniFormat format = recording_.format(*depth_, k); !format.unusable && format.size != info_.size)
     return {ReadStatus::rejected, fmt::format("frame {}: {} x {} instead of {} x {}", k, format.size.width,
                                               format.size.height, info_.size.width, info_.size.height)};
-  const std::string fault = recording_.read_depth(*depth_, k, frame.depth_mm);
-  if (!fault.empty())
-    return {ReadStatus::rejected, fmt::format("frame {} at byte {}: {}", k, entry.payload_position, fault)};
-  const std::string no_colour = colour_ == nullptr ? "" : read_colour(entry, frame.colour);
-  if (colour_ == nullptr || !no_colour.empty()) frame.colour.release();
-  return {ReadStatus::frame, no_colour};
+  if (const Outcome depth = recording_.read_depth(*depth_, k, frame.depth_mm); !depth)
+    return {ReadStatus::rejected,
+            fmt::format("frame {} at byte {}: {}", k, entry.payload_position, depth.reason())};
+  if (colour_ == nullptr) {
+    frame.colour.release();
+    return {ReadStatus::frame, {}};
+  }
+  const Outcome colour = read_colour(entry, frame.colour);
+  if (!colour) frame.colour.release();
+  return {ReadStatus::frame, colour.reason()};
 }
 
-// Copies the picture that goes with a depth frame into `colour`; returns why there is none.
-std::string OniSource::read_colour(const OniFrameEntry& depth_frame, cv::Mat3b& colour) {
+// Copies the colour image that belongs to a depth frame into `colour`, in the depth's size.
+Outcome OniSource::read_colour(const OniFrameEntry& depth_frame, cv::Mat3b& colour) {
   const std::size_t k = recording_.nearest(*colour_, depth_frame.timestamp_us).value();
   if (time_between(colour_->frames[k].timestamp_us, depth_frame.timestamp_us) > pairing_tolerance_us_)
-    return "no colour of that time";
+    return Outcome::failure("no colour of that time");
   if (shown_colour_ != k) {
     shown_colour_.reset();
-    const std::string fault = recording_.read_colour(*colour_, k, colour_image_);
-    if (!fault.empty()) return fmt::format("colour frame {}: {}", k, fault);
+    if (const Outcome read = recording_.read_colour(*colour_, k, colour_image_); !read)
+      return Outcome::failure(fmt::format("colour frame {}: {}", k, read.reason()));
     shown_colour_ = k;
   }
   const cv::Size size = info_.size;
@@ -160,7 +163,7 @@ std::string OniSource::read_colour(const OniFrameEntry& depth_frame, cv::Mat3b& 
     cv::resize(
         colour_image_, colour, size, 0, 0,
         colour_image_.total() > static_cast<std::size_t>(size.area()) ? cv::INTER_AREA : cv::INTER_LINEAR);
-  return {};
+  return Outcome::success();
 }
 
 }  // namespace saccade

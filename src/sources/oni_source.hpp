@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "core/frame_source.hpp"
+#include "core/outcome.hpp"
 #include "oni/recording.hpp"
 
 namespace saccade {
@@ -33,7 +34,7 @@ class OniSource final : public FrameSource {
   void note_colour();
   void note_times();
   void note_problems();
-  std::string read_colour(const OniFrameEntry& depth_frame, cv::Mat3b& colour);
+  Outcome read_colour(const OniFrameEntry& depth_frame, cv::Mat3b& colour);
 
   Recording recording_;
   const OniNode* depth_ = nullptr;
