@@ -15,20 +15,20 @@ void set_log_level(const Settings& settings) {
   spdlog::set_level(settings.quiet ? spdlog::level::warn : spdlog::level::from_str(settings.log_level));
 }
 
-void tell_notes(const SourceInfo& source, const Settings& settings) {
+void report_notes(const SourceInfo& source, const Settings& settings) {
   for (const std::string& note : source.notes) spdlog::warn("{}: {}", source.uri, note);
   const Intrinsics& camera = source.intrinsics;
   if (!settings.intrinsics && source.has_depth && camera.origin == IntrinsicsOrigin::guess)
-    spdlog::warn("{}: no calibration, guessing fx={} fy={} cx={} cy={} (give --intrinsics fx,fy,cx,cy)",
+    spdlog::warn("{}: no calibration, guessing fx={} fy={} cx={} cy={} (specify --intrinsics fx,fy,cx,cy)",
                  source.uri, camera.fx, camera.fy, camera.cx, camera.cy);
 }
 
-void tell_state(const SourceState& state) {
+void report_state(const SourceState& state) {
   switch (state.connection) {
     case SourceState::Connection::streaming:
       if (state.losses > 0)
-        spdlog::info("{} streams again; {} loss{}, {:.1f} s away in all", state.text, state.losses,
-                     state.losses == 1 ? "" : "es", state.away_s);
+        spdlog::info("{} reconnected; {} dropout{}, {:.1f} s in total", state.text, state.losses,
+                     state.losses == 1 ? "" : "s", state.away_s);
       for (const std::string& note : state.notes) spdlog::warn("{}: {}", state.text, note);
       return;
     case SourceState::Connection::waiting:
@@ -63,7 +63,7 @@ void make_output_folder(const fs::path& folder) {
   fs::create_directories(folder, code);
   if (code || !fs::is_directory(folder))
     throw failed("cannot make the output folder" + (code ? ": " + code.message() : std::string()),
-                 folder.string(), "choose a folder that can be written with --out");
+                 folder.string(), "choose a writable folder with --out");
 }
 
 }  // namespace saccade

@@ -39,7 +39,7 @@ Json to_json(const DeviceListing& device) {
   return json;
 }
 
-void tell(const DeviceListing& device) {
+void print(const DeviceListing& device) {
   fmt::print("{} {}\n  source  {}\n", device.identity.vendor, device.identity.name, device.source);
   const auto line = [](const char* what, const std::string& text) {
     if (!text.empty()) fmt::print("  {:<7} {}\n", what, text);
@@ -63,14 +63,14 @@ void devices(bool json) {
     fmt::print("{}\n", Json{{"devices", array}}.dump(2));
     return;
   }
-  if (list.empty()) fmt::print("no sensor is connected; saccade doctor looks for the reason\n");
-  for (const DeviceListing& device : list) tell(device);
+  if (list.empty()) fmt::print("no sensor is connected; to find the reason, run saccade doctor\n");
+  for (const DeviceListing& device : list) print(device);
 }
 
 void add_devices_command(CLI::App& app, std::function<void()>& action) {
-  CLI::App& command = *app.add_subcommand("devices", "what is connected, and through which driver");
+  CLI::App& command = *app.add_subcommand("devices", "list the connected sensors and their drivers");
   const auto json = std::make_shared<bool>(false);
-  command.add_flag("--json", *json, "in JSON on standard output");
+  command.add_flag("--json", *json, "print JSON on standard output");
   command.callback([json, &action] { action = [json] { devices(*json); }; });
 }
 

@@ -45,7 +45,7 @@ void check_openni2(const Examination& found, std::vector<Problem>& problems) {
     if (!left_out(found, name) && found.openni2.module(name) == nullptr)
       problems.push_back(
           {fmt::format("our driver module {} is not in {}", name, found.openni2.driver_folder.string()),
-           "./run --help, which first builds what is missing"});
+           "./run --help, which first builds missing parts"});
   for (const char* name : {"PS1080", "PSLink"})
     if (found.openni2.module(name) == nullptr)
       problems.push_back({fmt::format("the driver module {} of OpenNI2 is not in {}", name,
@@ -59,7 +59,7 @@ void check_openni2(const Examination& found, std::vector<Problem>& problems) {
 }
 
 void check_sensor(const UsbSensor& sensor, const Examination& found, std::vector<Problem>& problems) {
-  if (sensor.kind.part == Part::companion) return;  // motor and audio are slow and left alone
+  if (sensor.kind.part == Part::companion) return;  // motor and audio are slow, and not used
   const std::string name = title(sensor);
   if (found.openni2.in_this_build && left_out(found, sensor.kind.module)) {
     problems.push_back({name + ": this build has no driver module for it",
@@ -67,13 +67,14 @@ void check_sensor(const UsbSensor& sensor, const Examination& found, std::vector
     return;
   }
   if (sensor.kind.part == Part::unsupported) {
-    problems.push_back({name + ": no driver module for it is here",
-                        "use its maker's OpenNI2 module: copy it to the driver folder"});
+    problems.push_back({name + ": there is no driver module for it",
+                        "copy its maker's OpenNI2 module into the driver folder"});
     return;
   }
   if (sensor.access == Access::no_node)
-    problems.push_back({fmt::format("{}: there is no device file {}", name, sensor.node.string()),
-                        "sudo udevadm trigger --subsystem-match=usb, or hand /dev/bus/usb to the container"});
+    problems.push_back(
+        {fmt::format("{}: there is no device file {}", name, sensor.node.string()),
+         "sudo udevadm trigger --subsystem-match=usb, or pass /dev/bus/usb into the container"});
   if (sensor.access == Access::denied || sensor.access == Access::root_only)
     problems.push_back(
         {fmt::format(
@@ -87,9 +88,8 @@ void check_sensor(const UsbSensor& sensor, const Examination& found, std::vector
         {fmt::format("{}: connected at {:g} Mb/s, too slow for images", name, sensor.speed_mbps),
          "plug it into a USB 2.0 or 3.0 port without a hub; lsusb -t shows the speeds"});
   if (sensor.kernel_driver.starts_with("gspca"))
-    problems.push_back(
-        {fmt::format("{}: the kernel's webcam driver {} has taken it", name, sensor.kernel_driver),
-         fmt::format("sudo modprobe -r {}", sensor.kernel_driver)});
+    problems.push_back({fmt::format("{}: the kernel's webcam driver {} uses it", name, sensor.kernel_driver),
+                        fmt::format("sudo modprobe -r {}", sensor.kernel_driver)});
 }
 
 bool has(const std::vector<UsbSensor>& sensors, Part part) {
@@ -104,13 +104,13 @@ std::vector<Problem> diagnose(const Examination& found) {
   for (const UsbSensor& sensor : found.usb) check_sensor(sensor, found, problems);
   const bool camera = has(found.usb, Part::camera);
   if (!camera && has(found.usb, Part::companion))
-    problems.push_back({"a Kinect is connected, but its camera is not there: it has no power",
+    problems.push_back({"a Kinect is connected, but its camera is missing: it has no power",
                         "connect the Kinect's own power supply"});
   if (found.usb.empty() && found.devices.empty())
-    problems.push_back({"no USB device looks like a sensor", "plug it in, then look with lsusb"});
+    problems.push_back({"no USB device looks like a sensor", "plug one in, then check with lsusb"});
   if (camera && found.devices.empty() && problems.empty())
     problems.push_back({"OpenNI2 does not list the sensor that is connected",
-                        "end other programs that use it, plug it in again"});
+                        "quit other programs that use it, then plug it in again"});
   return problems;
 }
 

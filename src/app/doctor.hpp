@@ -9,21 +9,21 @@
 
 namespace saccade {
 
-/// Something that keeps a sensor from being found or used, and what mends it.
+/// Something that prevents a sensor from being found or used, and its remedy.
 struct Problem {
   std::string what;    ///< one line
-  std::string remedy;  ///< a command, or what to do by hand
+  std::string remedy;  ///< a command, or an instruction
 };
 
-/// All that matters for finding a sensor.
+/// The facts about this machine from which diagnose() works.
 struct Examination {
   OpenNi2Installation openni2;
   std::vector<UsbSensor> usb;
   std::vector<DeviceListing> devices;  ///< as OpenNI2 lists them
-  std::string openni2_error;           ///< why it does not start; empty = it does
+  std::string openni2_error;           ///< reason why it does not start; empty = it starts
 };
 
 /// The problems in their order of importance; empty if a sensor is ready for use.
-std::vector<Problem> diagnose(const Examination& found);
+[[nodiscard]] std::vector<Problem> diagnose(const Examination& found);
 
 }  // namespace saccade

@@ -76,7 +76,7 @@ Json to_json(const Examination& found, const std::vector<Problem>& problems) {
           {"problems", list}};
 }
 
-void tell(const Examination& found, const std::vector<Problem>& problems) {
+void print(const Examination& found, const std::vector<Problem>& problems) {
   if (found.openni2.in_this_build) {
     fmt::print("OpenNI2   {} ({})\n", found.openni2.version, found.openni2.library.string());
     fmt::print("drivers   in {}\n", found.openni2.driver_folder.string());
@@ -85,7 +85,7 @@ void tell(const Examination& found, const std::vector<Problem>& problems) {
   }
   for (const auto& module : found.openni2.modules)
     fmt::print("          {}{}\n", module.name, module.problem.empty() ? "" : ": " + module.problem);
-  if (found.usb.empty()) fmt::print("USB       nothing that looks like a sensor\n");
+  if (found.usb.empty()) fmt::print("USB       no sensor\n");
   for (const UsbSensor& sensor : found.usb)
     fmt::print("USB       {} {:04x}:{:04x}, port {}, {}, {} {}: {}; udev rule: {}\n", sensor.kind.name,
                sensor.kind.vendor, sensor.product, sensor.place,
@@ -95,7 +95,7 @@ void tell(const Examination& found, const std::vector<Problem>& problems) {
   for (const DeviceListing& device : found.devices)
     fmt::print("sensor    {} {}: {}\n", device.identity.vendor, device.identity.name, device.source);
   for (const Problem& problem : problems) fmt::print("PROBLEM   {} -> {}\n", problem.what, problem.remedy);
-  if (problems.empty()) fmt::print("all is well: saccade view openni2\n");
+  if (problems.empty()) fmt::print("no problems: try saccade view openni2\n");
 }
 
 }  // namespace
@@ -106,15 +106,15 @@ void doctor(const DoctorArguments& arguments) {
   if (arguments.json)
     fmt::print("{}\n", to_json(found, problems).dump(2));
   else
-    tell(found, problems);
+    print(found, problems);
 }
 
 void add_doctor_command(CLI::App& app, std::function<void()>& action) {
   CLI::App& command =
-      *app.add_subcommand("doctor", "why a sensor is not found: library, drivers, udev rule, USB");
+      *app.add_subcommand("doctor", "find out why a sensor is not found: library, drivers, udev rule, USB");
   const auto arguments = std::make_shared<DoctorArguments>();
-  command.add_flag("--json", arguments->json, "in JSON on standard output");
-  command.add_option("--sysfs", arguments->sysfs, "where sysfs is, with dev and lib/udev beside it [/sys]")
+  command.add_flag("--json", arguments->json, "print JSON on standard output");
+  command.add_option("--sysfs", arguments->sysfs, "folder of sysfs, with dev and lib/udev beside it [/sys]")
       ->type_name("DIR");
   command.callback([arguments, &action] { action = [arguments] { doctor(*arguments); }; });
 }

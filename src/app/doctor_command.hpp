@@ -12,11 +12,12 @@ struct DoctorArguments {
   bool json = false;
 };
 
-/// `saccade doctor`: tells why a sensor is not found or cannot be used: OpenNI2 and its driver modules, what
-/// is on USB, permissions, speed; and what mends it. Finding problems is its work, not its failure.
+/// `saccade doctor`: reports why a sensor is not found or cannot be used, and the remedy. Examines OpenNI2
+/// and its driver modules, the sensors on USB, their permissions and speed. Problems that it finds are no
+/// failure.
 void doctor(const DoctorArguments& arguments);
 
-/// Adds the command to `app`; parsing it sets `action` to what it does.
+/// Adds `saccade doctor` to `app`; parsing it sets `action` to doctor().
 void add_doctor_command(CLI::App& app, std::function<void()>& action);
 
 }  // namespace saccade

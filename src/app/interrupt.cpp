@@ -7,7 +7,7 @@
 
 namespace saccade {
 
-Interrupt::Interrupt(std::function<void()> stop) : stop_(std::move(stop)) {
+Interrupt::Interrupt() {
   sigemptyset(&signals_);
   sigaddset(&signals_, SIGINT);
   sigaddset(&signals_, SIGTERM);
@@ -21,14 +21,26 @@ Interrupt::~Interrupt() {
   pthread_sigmask(SIG_SETMASK, &before_, nullptr);
 }
 
+Interrupt::Handler::Handler(Interrupt& interrupt, std::function<void()> stop) : interrupt_(interrupt) {
+  const std::lock_guard lock(interrupt_.mutex_);
+  interrupt_.stop_ = std::move(stop);
+  if (interrupt_.happened_) interrupt_.stop_();
+}
+
+Interrupt::Handler::~Handler() {
+  const std::lock_guard lock(interrupt_.mutex_);
+  interrupt_.stop_ = nullptr;
+}
+
 void Interrupt::watch(const std::stop_token& token) {
   const timespec poll{0, 100'000'000};
   while (!token.stop_requested()) {
     if (sigtimedwait(&signals_, nullptr, &poll) < 0) continue;
-    happened_ = true;
     // From now on this thread takes the signals, with their usual effect.
     pthread_sigmask(SIG_UNBLOCK, &signals_, nullptr);
-    stop_();
+    const std::lock_guard lock(mutex_);
+    happened_ = true;
+    if (stop_) stop_();
     return;
   }
 }

@@ -34,7 +34,7 @@ int run_program(int argc, char** argv) {
   spdlog::set_default_logger(spdlog::stderr_color_mt("saccade"));
   spdlog::set_pattern("%n: %l: %v");
 
-  CLI::App app{"Saccade: where a robot should look, from depth images, by local 3D symmetry"};
+  CLI::App app{"Saccade: saliency and attention points of RGB-D images by local 3D symmetry"};
   app.set_version_flag("--version", std::string("saccade ") + saccade::kVersion);
   app.require_subcommand(1);
   std::function<void()> action;
@@ -62,7 +62,7 @@ int run_program(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  // A file-size limit and a closed pipe then show as a failed write, which is told like a full disk.
+  // A file-size limit and a closed pipe then appear as a failed write, which is reported like a full disk.
   std::signal(SIGXFSZ, SIG_IGN);
   std::signal(SIGPIPE, SIG_IGN);
   try {

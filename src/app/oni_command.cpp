@@ -17,7 +17,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Names in a damaged file may hold any bytes; JSON and a terminal want text.
+// Names in a damaged file may hold any bytes, which JSON and terminals do not accept.
 std::string printable(std::string text) {
   for (char& c : text)
     if (c < 32 || c > 126) c = '?';
@@ -74,7 +74,7 @@ void print_stream(const OniStreamInfo& stream) {
   fmt::print("\n");
 }
 
-// Output that did not arrive, for example on a full disk, is a failure.
+// Throws if the output was not written, for example on a full disk.
 void flush_output() {
   if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
     throw failed("cannot write", "standard output", "is the disk full?");
@@ -123,7 +123,7 @@ void oni_check(const std::string& file, bool json) {
   flush_output();
   if (!sound)
     throw unreadable(fmt::format("the recording is not sound, {} errors", problems.count(OniSeverity::error)),
-                     file, "saccade oni repair saves what is whole");
+                     file, "saccade oni repair saves the good frames");
 }
 
 void oni_repair(const std::string& file, const std::string& name, bool force, bool json) {
@@ -140,8 +140,8 @@ void oni_repair(const std::string& file, const std::string& name, bool force, bo
     fmt::print("{}\n", out.dump(-1, ' ', false, Json::error_handler_t::replace));
   } else {
     for (const std::string& note : report.notes) fmt::print("{}\n", note);
-    fmt::print("{}: {} frames saved, {} bad frames left out, {} bytes were no records\n", to, report.frames,
-               report.bad_frames, report.lost_bytes);
+    fmt::print("{}: {} frames saved, {} bad frames left out, {} bytes outside records skipped\n", to,
+               report.frames, report.bad_frames, report.lost_bytes);
   }
   flush_output();
 }
@@ -152,21 +152,21 @@ void add_oni_command(CLI::App& app, std::function<void()>& action) {
     bool json = false, force = false;
   };
   const auto a = std::make_shared<Arguments>();
-  CLI::App& oni = *app.add_subcommand("oni", "look into, verify or mend an .oni recording");
+  CLI::App& oni = *app.add_subcommand("oni", "inspect, check or repair an .oni recording");
   oni.require_subcommand(1);
   const auto add = [&](const char* name, const char* help) {
     CLI::App& command = *oni.add_subcommand(name, help);
     command.add_option("FILE", a->file, "the recording")->required();
-    command.add_flag("--json", a->json, "the result in JSON on standard output");
+    command.add_flag("--json", a->json, "print JSON on standard output");
     return &command;
   };
-  add("info", "streams, sizes, codecs, frames, duration, rates, gaps, camera")->callback([a, &action] {
+  add("info", "list streams, sizes, codecs, frames, duration, rates, gaps, camera")->callback([a, &action] {
     action = [a] { oni_info(a->file, a->json); };
   });
-  add("check", "every problem with its position; exit status 0 if the recording is sound, else 3")
+  add("check", "list every problem with its position; exit status 0 if the recording is sound, else 3")
       ->callback([a, &action] { action = [a] { oni_check(a->file, a->json); }; });
-  CLI::App* repair = add("repair", "copy every good frame to a new, sound file");
-  repair->add_option("TO,--out", a->to, "the file to make; FILE with .repaired.oni if it is not given");
+  CLI::App* repair = add("repair", "copy every good frame to a new file");
+  repair->add_option("TO,--out", a->to, "the new file; without it, FILE with the ending .repaired.oni");
   repair->add_flag("--force", a->force, "replace TO if it exists");
   repair->callback([a, &action] { action = [a] { oni_repair(a->file, a->to, a->force, a->json); }; });
 }

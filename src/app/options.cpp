@@ -9,6 +9,13 @@
 namespace saccade {
 namespace {
 
+// The help with the default, if there is one, at the end of its first line.
+std::string help_text(const SettingSpec& spec, const std::string& default_text) {
+  if (default_text.empty()) return spec.help;
+  std::string text = spec.help;
+  return text.insert(std::min(text.find('\n'), text.size()), " [" + default_text + "]");
+}
+
 bool holds(const std::vector<std::string_view>& keys, std::string_view key) {
   return std::find(keys.begin(), keys.end(), key) != keys.end();
 }
@@ -44,7 +51,7 @@ CLI::Option* SettingsOptions::add(CLI::App& command, const SettingSpec& spec,
   return command
       .add_option_function<std::string>(
           name, [this, &spec](const std::string& value) { given_.emplace_back(&spec, value); },
-          spec.help + " [" + default_text + "]")
+          help_text(spec, default_text))
       ->type_name(std::string(spec.value));
 }
 

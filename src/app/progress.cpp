@@ -37,7 +37,7 @@ std::string live_text(const Ledger& ledger, const DurationHistogram& latency) {
 Progress::Progress(bool wanted, std::optional<std::int64_t> total)
     : shown_(wanted && ::isatty(STDERR_FILENO) == 1), total_(total) {}
 
-Progress::~Progress() {
+void Progress::clear() const {
   if (shown_) fmt::print(stderr, "\r\033[K");
 }
 

@@ -2,7 +2,6 @@
 
 #include <cstdio>
 #include <memory>
-#include <mutex>
 
 #include <spdlog/spdlog.h>
 
@@ -46,7 +45,7 @@ cv::Size parse_size(const std::string& text) {
   return {width, height};
 }
 
-// The state of the last time. A file that cannot be read is no reason not to start.
+// Restores the state of the last session. The viewer starts even if the file cannot be read.
 void load_state(ViewState& state, const fs::path& file) {
   if (file.empty() || !fs::exists(file)) return;
   try {
@@ -90,25 +89,10 @@ void view(const ViewArguments& arguments, const SettingsOptions& options) {
   viewer_options.log = arguments.log;
   viewer_options.paused = arguments.paused;
 
-  Viewer* running = nullptr;
-  std::mutex mutex;
-  bool stopped = false;
-  Interrupt interrupt([&] {
-    const std::lock_guard lock(mutex);
-    stopped = true;
-    if (running != nullptr) running->stop();
-  });
+  Interrupt interrupt;
   Viewer viewer(std::move(state), std::move(viewer_options), open_source, connected_sensors);
-  {
-    const std::lock_guard lock(mutex);
-    running = &viewer;
-    if (stopped) viewer.stop();
-  }
+  const Interrupt::Handler handler(interrupt, [&] { viewer.stop(); });
   viewer.run();
-  {
-    const std::lock_guard lock(mutex);
-    running = nullptr;
-  }
   if (arguments.screenshot.empty()) save_state(viewer.state(), file);
 }
 
@@ -123,24 +107,28 @@ fs::path find_bundled_recording(const fs::path& program) {
 }
 
 void add_view_command(CLI::App& app, std::function<void()>& action) {
-  CLI::App& command = *app.add_subcommand("view", "the viewer: see what attracts attention, and tune it");
+  CLI::App& command =
+      *app.add_subcommand("view", "open the viewer: see what attracts attention, and change the settings");
   const auto arguments = std::make_shared<ViewArguments>();
   ViewArguments& a = *arguments;
   add_source_option(command, "SOURCE", a.source,
-                    "what to show, see the end of this help; the bundled recording if there is none");
-  command.add_option("--size", a.size, "of the window in pixels, instead of the last time's")
+                    "what to show; see the end of this help [the bundled recording]");
+  command.add_option("--size", a.size, "size of the window in pixels; without it, that of the last session")
       ->type_name("WxH");
   command
-      .add_option("--ui-scale", a.ui_scale, "size of text and buttons, 1 = usual; 0 = what the screen says")
+      .add_option("--ui-scale", a.ui_scale,
+                  "size of text and buttons, 1 = normal; 0 = as the screen reports [0]")
       ->type_name("S")
       ->check(CLI::Range(kSmallestScale, kLargestScale) | CLI::IsMember({0.0}));
-  command.add_flag("--paused", a.paused, "shows the first frame and waits");
-  command.add_option("--screenshot", a.screenshot, "write the window as a PNG and end")->type_name("FILE");
-  command.add_option("--after-frames", a.after_frames, "with --screenshot: after so many computed frames")
+  command.add_flag("--paused", a.paused, "show the first frame and wait");
+  command.add_option("--screenshot", a.screenshot, "write the window as a PNG file and quit")
+      ->type_name("FILE");
+  command.add_option("--after-frames", a.after_frames, "with --screenshot: after N computed frames [1]")
       ->type_name("N")
       ->check(CLI::Range(std::int64_t{1}, std::int64_t{1'000'000'000}));
   command
-      .add_option("--ui-log", a.log, "a line of JSON for each frame of the window: its time, what it shows")
+      .add_option("--ui-log", a.log,
+                  "write a line of JSON for each frame of the window: its duration and its content")
       ->type_name("FILE");
   const auto options = std::make_shared<SettingsOptions>(
       command, AcceptedSettings{{SettingScope::model, SettingScope::attention, SettingScope::frames,

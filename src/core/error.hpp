@@ -5,7 +5,7 @@
 
 namespace saccade {
 
-/// The exit statuses of the program (SPEC section 7).
+/// The exit statuses of the program.
 enum class ExitStatus {
   done = 0,
   failed = 1,      ///< failed while running: device lost, disk full
@@ -13,8 +13,8 @@ enum class ExitStatus {
   unreadable = 3,  ///< the input cannot be read
 };
 
-/// A failure of the environment or of the input, made for a person: what failed, on what, what to try.
-/// A caller's mistake in the code is std::invalid_argument instead.
+/// A failure of the environment or of the input, for the user to read: what failed, on what, what to try.
+/// A mistake in the calling code is std::invalid_argument instead.
 class Error : public std::runtime_error {
  public:
   /// what() becomes the one line "what: on (try)"; `on` and `hint` may be empty. Line breaks become blanks.

@@ -8,7 +8,7 @@ namespace saccade {
 
 void check_start(const SourceInfo& source, std::int64_t start) {
   if (source.frame_count && start >= *source.frame_count)
-    throw usage_error(fmt::format("--start {} is behind the last frame", start), source.uri,
+    throw usage_error(fmt::format("--start {} is past the last frame", start), source.uri,
                       fmt::format("it has {} frames, counted from 0", *source.frame_count));
 }
 

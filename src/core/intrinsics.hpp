@@ -6,7 +6,7 @@
 
 namespace saccade {
 
-/// Where a camera calibration comes from; it is always told, since a guess bends every point and normal.
+/// The origin of a calibration; always reported, since a wrong guess distorts every point and normal.
 enum class IntrinsicsOrigin { sensor, file, option, guess };
 
 std::string_view to_string(IntrinsicsOrigin origin);
@@ -23,7 +23,7 @@ struct Intrinsics {
   Intrinsics at_level(int level) const;
 
   /// The point of pixel (row, col) with depth `depth_mm`, in mm, camera frame: x right, y down, z forward.
-  /// Depth 0 gives the origin, which is no point.
+  /// Depth 0 gives (0, 0, 0), which stands for no point.
   cv::Point3d point_mm(double row, double col, double depth_mm) const {
     return {(col - cx) / fx * depth_mm, (row - cy) / fy * depth_mm, depth_mm};
   }

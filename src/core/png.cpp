@@ -20,13 +20,14 @@ Context make_context(int flags) {
 }
 
 void check(int code) {
-  if (code != 0) throw std::runtime_error(fmt::format("not a sound PNG: {}", spng_strerror(code)));
+  if (code != 0) throw std::runtime_error(fmt::format("not a valid PNG: {}", spng_strerror(code)));
 }
 
 Context open(std::span<const std::uint8_t> png, spng_ihdr& header) {
   if (png.empty()) throw std::runtime_error("empty file");
   Context context = make_context(0);
-  check(spng_set_image_limits(context.get(), 1u << 30, 1u << 30));  // ours, below, says it better
+  check(spng_set_image_limits(context.get(), 1u << 30,
+                              1u << 30));  // our own limit, below, has the clearer message
   check(spng_set_png_buffer(context.get(), png.data(), png.size()));
   check(spng_get_ihdr(context.get(), &header));
   if (header.width > static_cast<unsigned>(kLargestSide) ||
@@ -42,11 +43,11 @@ bool is_grey_or_palette(const spng_ihdr& header) {
 
 void decode_pixels(spng_ctx* context, cv::Mat& image, int format) {
   check(spng_decode_image(context, image.data, image.total() * image.elemSize(), format, 0));
-  check(spng_decode_chunks(context));  // to the end, so that a file cut there is noticed
+  check(spng_decode_chunks(context));  // to the end, to detect a truncated file
 }
 
-// SPNG_FMT_PNG leaves samples below 8 bits packed; G8 widens grey ones but scales them, which labels must not
-// be.
+// SPNG_FMT_PNG leaves samples below 8 bits packed. SPNG_FMT_G8 would widen grey samples, but scale them too,
+// which is wrong for labels.
 cv::Mat unpack(const cv::Mat1b& packed, cv::Size size, int bits) {
   cv::Mat1b image(size);
   const int per_byte = 8 / bits, mask = (1 << bits) - 1;

@@ -9,26 +9,26 @@
 
 namespace saccade {
 
-/// No image of this project is larger on a side; it bounds what a hostile file can make us allocate.
+/// Limit of the sides of an image in pixels; it bounds the memory that a hostile file can make us allocate.
 inline constexpr int kLargestSide = 8192;
 
-/// What the first bytes of a PNG say.
+/// The header of a PNG file.
 struct PngHeader {
   cv::Size size;
   int bits = 0;          ///< per sample: 1, 2, 4, 8 or 16
   std::string channels;  ///< "grey", "grey+alpha", "RGB", "RGBA" or "palette"
 };
 
-/// Throws std::runtime_error with the reason if this is no PNG or larger than kLargestSide a side.
-PngHeader read_png_header(std::span<const std::uint8_t> png);
+/// Throws std::runtime_error with the reason if the bytes are no PNG or a side is larger than kLargestSide.
+[[nodiscard]] PngHeader read_png_header(std::span<const std::uint8_t> png);
 
 /// Decodes grey PNGs of 8 or 16 bits as they are (CV_8UC1, CV_16UC1), palette images as their 8-bit indices,
-/// and everything in colour as 8-bit BGR (CV_8UC3). Throws std::runtime_error with the reason, also for a cut
+/// and colour images as 8-bit BGR (CV_8UC3). Throws std::runtime_error with the reason, also for a truncated
 /// file.
-cv::Mat decode_png(std::span<const std::uint8_t> png);
+[[nodiscard]] cv::Mat decode_png(std::span<const std::uint8_t> png);
 
 /// Encodes CV_8UC1, CV_16UC1 or CV_8UC3 (BGR) at a fast compression level. The same image gives the same
 /// bytes. Throws std::invalid_argument for another type.
-std::vector<std::uint8_t> encode_png(const cv::Mat& image);
+[[nodiscard]] std::vector<std::uint8_t> encode_png(const cv::Mat& image);
 
 }  // namespace saccade

@@ -7,31 +7,31 @@
 
 namespace saccade {
 
-/// What a sensor can change while it streams. Empty: the device does not have it.
+/// The settings of a sensor that can change while it streams. Empty: the device does not have the setting.
 struct SensorValues {
   std::optional<bool> registration;  ///< depth as seen from the colour camera
   std::optional<bool> mirror;
   std::optional<bool> auto_exposure;
-  std::optional<int> exposure;  ///< the device's own unit; the device obeys it while auto_exposure is off
+  std::optional<int> exposure;  ///< in the device's own unit; applies while auto_exposure is off
   std::optional<bool> auto_white_balance;
 
   bool operator==(const SensorValues&) const = default;
 };
 
-/// The controls of an open sensor, for people to turn. Any thread.
+/// The controls of an open sensor. Any thread.
 class SensorControls {
  public:
   virtual ~SensorControls() = default;
 
-  /// As read back from the device when it was last set, not as asked for. All empty while no device is there.
+  /// As read back from the device after the last change, not as requested. All empty while no device is open.
   virtual SensorValues values() const = 0;
 
-  /// The modes in which the device can give depth, each once, for SensorSettings::mode of the next opening: a
-  /// source that is open keeps its own. Empty until a device has been opened; stays while it is lost.
+  /// The depth modes of the device, each once, for SensorSettings::mode of the next opening: an open source
+  /// keeps its mode. Empty until a device has been opened; kept while it is lost.
   virtual std::vector<SensorMode> modes() const = 0;
 
-  /// Asks for what is not empty in `wanted`. Done by the thread that reads frames, before its next frame;
-  /// values() then says what has become of it. Holds for a device that comes back, too.
+  /// Requests the values in `wanted` that are not empty. The thread that reads frames applies them before its
+  /// next frame; values() then has the result. They also apply to a device that reconnects.
   virtual void request(const SensorValues& wanted) = 0;
 };
 

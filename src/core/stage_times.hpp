@@ -7,7 +7,7 @@
 
 namespace saccade {
 
-/// The stages whose time is measured for each frame.
+/// The stages of the processing of a frame that are timed.
 enum class Stage { capture, points, symmetry, master_map, attention, count };
 
 constexpr std::array<std::string_view, static_cast<std::size_t>(Stage::count)> kStageNames = {
@@ -23,7 +23,7 @@ class StageTimes {
   std::array<double, static_cast<std::size_t>(Stage::count)> ms_{};
 };
 
-/// Adds the time from its construction to its end of life to one stage.
+/// Adds the time from its construction to its destruction to one stage.
 class StageTimer {
  public:
   StageTimer(StageTimes& times, Stage stage) : times_(times), stage_(stage) {}

@@ -12,13 +12,12 @@
 namespace saccade {
 
 /// A fixed set of threads that share the chunks of one job at a time. The calling thread works too, so a pool
-/// of one has no thread of its own. Chunks are handed out in order, each exactly once; which thread takes
-/// which is open, so a job whose chunks write disjoint memory gives the same bits for any number of workers.
-/// Thread safety: for_each() is called by one thread at a time and never from inside a job; interrupt() and
-/// resume() by any.
+/// of one has no thread of its own. Chunks start in order, each exactly once, on any of the threads: a job
+/// whose chunks write disjoint memory gives the same bits for any number of workers. Thread safety: one
+/// thread at a time calls for_each(), and never from inside a job; any thread calls interrupt() and resume().
 class WorkerPool {
  public:
-  /// What for_each() throws when its job was given up.
+  /// Thrown by for_each() after interrupt().
   struct Interrupted {};
 
   /// `workers` >= 1 counts the calling thread; throws std::invalid_argument otherwise.
@@ -30,12 +29,12 @@ class WorkerPool {
   int workers() const { return static_cast<int>(threads_.size()) + 1; }
 
   /// Runs job(chunk, worker) for every chunk in [0, chunks); worker in [0, workers()) names the thread, for
-  /// scratch memory. Returns when all are done. The first exception of a job is rethrown here after the
-  /// others ended; chunks not begun by then are left out. Allocates nothing.
+  /// scratch memory. Returns when all are done. Rethrows the first exception of a job after the other threads
+  /// have finished their chunks; the chunks not begun by then are skipped. Allocates nothing.
   void for_each(int chunks, const std::function<void(int chunk, int worker)>& job);
 
-  /// From now on no chunk is begun and for_each() throws Interrupted, until resume(): nobody wants the result
-  /// any more.
+  /// For a result that is no longer needed: until resume(), no chunk is begun and for_each() throws
+  /// Interrupted.
   void interrupt() noexcept { interrupted_ = true; }
   void resume() noexcept { interrupted_ = false; }
 

@@ -8,7 +8,7 @@
 namespace saccade {
 namespace {
 
-constexpr std::array<std::string_view, kPalettes.size()> kNames = {"turbo", "viridis", "inferno", "gray"};
+constexpr std::array<std::string_view, kPalettes.size()> kNames = {"turbo", "viridis", "inferno", "grey"};
 
 constexpr int kFarShade = 45, kShades = 190;  // of a depth picture
 
@@ -26,7 +26,7 @@ PaletteColours make_colours(Palette palette) {
     case Palette::inferno:
       cv::applyColorMap(ramp, colours, cv::COLORMAP_INFERNO);
       break;
-    case Palette::gray:
+    case Palette::grey:
       cv::cvtColor(ramp, colours, cv::COLOR_GRAY2BGR);
       break;
   }
@@ -48,7 +48,7 @@ std::optional<Palette> palette_named(std::string_view name) {
 const PaletteColours& colours_of(Palette palette) {
   static const std::array<PaletteColours, kPalettes.size()> all = {
       make_colours(Palette::turbo), make_colours(Palette::viridis), make_colours(Palette::inferno),
-      make_colours(Palette::gray)};
+      make_colours(Palette::grey)};
   return all[static_cast<std::size_t>(palette)];
 }
 
@@ -67,15 +67,15 @@ std::optional<ValueRange> percentile_range(const cv::Mat1f& image, std::size_t o
   return ValueRange{low_value, *high};
 }
 
-cv::Mat1b to_gray(const cv::Mat1f& map) {
+cv::Mat1b to_grey(const cv::Mat1f& map) {
   double largest = 0;
   cv::minMaxLoc(map, nullptr, &largest);
   if (largest <= 0) return cv::Mat1b(map.size(), std::uint8_t{0});
   cv::Mat1f root;
   cv::sqrt(map / largest, root);
-  cv::Mat1b gray;
-  root.convertTo(gray, CV_8U, 255);
-  return gray;
+  cv::Mat1b grey;
+  root.convertTo(grey, CV_8U, 255);
+  return grey;
 }
 
 cv::Vec3b depth_colour(Palette palette, double share) {

@@ -14,7 +14,7 @@ std::string list_mm(const cv::Point3f& p) { return fmt::format("[{},{},{}]", p.x
 
 }  // namespace
 
-// Written by hand, since a float's shortest text ("0.1") is wanted and a JSON library prints its double.
+// Formatted here, for the shortest text of a float ("0.1"): a JSON library prints it as a double.
 std::string fixations_json(const Result& result) {
   const Attention& attention = result.attention;
   std::string line = fmt::format(R"({{"frame":{},"name":{},"timestamp_us":{},"fixations":[)",

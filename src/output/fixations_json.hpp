@@ -6,9 +6,9 @@
 
 namespace saccade {
 
-/// A frame's line of fixations.jsonl (SPEC section 7), without the line feed. Lengths in mm in camera frame;
-/// a position of 0, 0, 0 means that there is no depth reading at the pixel. Fixations of `proto` also tell
-/// their proto-object; "ended_early" says why there are fewer than were asked for.
+/// A frame's line of fixations.jsonl (README.md), without the line feed. Positions are in mm in camera frame;
+/// 0, 0, 0 means that there is no depth reading at the pixel. Fixations of `proto` also describe their
+/// proto-object; "ended_early" says why there are fewer than requested.
 std::string fixations_json(const Result& result);
 
 }  // namespace saccade

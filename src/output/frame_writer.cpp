@@ -14,7 +14,7 @@
 namespace saccade {
 namespace {
 
-// Uncompressed, so that any reader has the floats at once.
+// Uncompressed, for any reader.
 void write_tiff(const std::filesystem::path& path, const cv::Mat& image) {
   constexpr int kNoCompression = 1;
   std::vector<std::uint8_t> bytes;
@@ -33,13 +33,13 @@ void write_frame(const std::filesystem::path& folder, const Result& result, cons
   const SaliencyMaps& maps = result.maps;
   if (dump.contains("maps")) {
     write_tiff(path("saliency.tiff"), maps.master);
-    write_file(path("saliency.png"), encode_png(to_gray(maps.master)));
+    write_file(path("saliency.png"), encode_png(to_grey(maps.master)));
   }
   if (dump.contains("levels"))
     for (std::size_t i = 0; i < maps.levels.size(); ++i)
       write_tiff(path(fmt::format("level{}.tiff", first_level + static_cast<int>(i))), maps.levels[i]);
   if (dump.contains("normals")) {
-    cv::Mat3f xyz;  // the encoder takes channels for B, G, R and turns them round
+    cv::Mat3f xyz;  // the encoder expects B, G, R and reverses the channels
     cv::cvtColor(maps.normals, xyz, cv::COLOR_BGR2RGB);
     write_tiff(path("normals.tiff"), xyz);
   }

@@ -19,10 +19,9 @@ const cv::Scalar kMark(255, 255, 255), kFirstMark(80, 255, 80), kShadow(0, 0, 0)
 // Marks and lines grow with the picture: 1 at 640 pixels wide.
 double mark_size(const cv::Mat3b& picture) { return std::clamp(picture.cols / 640.0, 0.5, 4.0); }
 
-// Of each object the part of the picture that it is in, with room for the closing around it: one look at the
-// masks for all of them.
+// The bounding box of each object, with a margin for the closing; one pass over the masks for all objects.
 std::vector<cv::Rect> object_boxes(const Attention& attention) {
-  constexpr int kRoom = 4;  // there and back by the brush's half
+  constexpr int kRoom = 4;  // twice half the brush
   struct Extent {
     int left = std::numeric_limits<int>::max(), right = -1, top = 0, bottom = -1;
   };
@@ -148,7 +147,7 @@ void blend_map(cv::Mat3b& picture, const cv::Mat1b& strength, const MapStyle& st
   const PaletteColours& colours = colours_of(style.palette);
   struct Share {
     int of_picture;
-    std::array<int, 3> of_map;  // premultiplied, with the half that rounds
+    std::array<int, 3> of_map;  // premultiplied, with 127 for rounding
   };
   std::array<Share, 256> shares;
   for (int i = 0; i < 256; ++i) {

@@ -12,22 +12,22 @@
 
 namespace saccade {
 
-/// Threads that write results, so that encoding pictures does not hold up the operator. The queue is bounded
-/// by the pipeline's slots: whoever holds all of them waits.
+/// Threads that write results, so that encoding pictures does not delay the operator. The slots of the
+/// pipeline bound the queue.
 class WriterPool {
  public:
-  /// `threads` >= 0; with none submit() writes at once. `write` runs on any of the threads.
+  /// `threads` >= 0; with 0, submit() itself writes. `write` runs on any of the threads.
   WriterPool(int threads, std::function<void(const Result&)> write);
 
-  /// Waits for what was submitted; errors not fetched by finish() are lost.
+  /// Writes all submitted results first. Errors that finish() did not rethrow are lost.
   ~WriterPool();
   WriterPool(const WriterPool&) = delete;
   WriterPool& operator=(const WriterPool&) = delete;
 
-  /// Hands over a result. Rethrows the first error of an earlier write.
+  /// Takes a result. Rethrows the first error of an earlier write.
   void submit(ResultHandle result);
 
-  /// Waits until all is written. Rethrows the first error.
+  /// Waits until all results are written. Rethrows the first error.
   void finish();
 
  private:

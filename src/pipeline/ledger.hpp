@@ -5,18 +5,18 @@
 
 namespace saccade {
 
-/// What became of every frame that was read. Nothing is lost silently: when the pipeline has ended,
-/// captured = processed + dropped + rejected; while it runs the difference is what is in flight, which is
-/// never less than 0 nor more than the pipeline has slots.
+/// Counts every frame that was read, so that none is lost silently. When the pipeline has ended,
+/// captured = processed + dropped + rejected; while it runs, the difference is the number of frames in
+/// flight, from 0 to the number of slots of the pipeline.
 struct Ledger {
-  std::int64_t captured = 0;   ///< read from the source, usable or not
+  std::int64_t captured = 0;   ///< frames read from the source, usable or not
   std::int64_t processed = 0;  ///< computed and handed to the consumer
-  std::int64_t dropped = 0;    ///< usable, but given up, for one of two causes
+  std::int64_t dropped = 0;    ///< usable, but not computed: `replaced` and stopped()
   std::int64_t rejected = 0;   ///< not usable: unreadable, of another size, not depth
 
-  std::int64_t replaced = 0;  ///< of the dropped: a newer frame came before their turn
+  std::int64_t replaced = 0;  ///< of the dropped: overtaken by a newer frame
 
-  /// Of the dropped: the pipeline was stopped, or failed, before they were computed.
+  /// Of the dropped: the pipeline stopped or failed first.
   std::int64_t stopped() const { return dropped - replaced; }
   std::int64_t in_flight() const { return captured - processed - dropped - rejected; }
   bool operator==(const Ledger&) const = default;
@@ -29,7 +29,7 @@ class LedgerCounters {
 
   void count(Event event) noexcept { counts_[event].fetch_add(1); }
 
-  /// As it was at one moment: counters only grow, so two equal readings in a row are of one state.
+  /// A consistent state: counters only grow, so two equal readings in succession are of one state.
   Ledger snapshot() const noexcept {
     Ledger last = read();
     for (Ledger now = read(); !(now == last); now = read()) last = now;

@@ -7,15 +7,15 @@
 
 namespace saccade {
 
-/// A lock-free place for one item between two threads, where the newest wins. It always holds an item, fresh
-/// or spare, and each side hands one in for the one it gets out: the producer so never waits for the consumer
-/// and nothing is allocated. This is the triple buffer: one item at either side and one here.
+/// A lock-free triple buffer: each of two threads holds one item, and the mailbox a third, fresh or spare.
+/// Each side exchanges its item for that of the mailbox, where a newer item replaces an older one. The
+/// producer therefore never waits for the consumer, and nothing is allocated.
 template <typename T>
 class Mailbox {
  public:
   struct Exchange {
-    T* item;        ///< the producer's to fill next
-    bool replaced;  ///< it is a fresh one that the consumer did not take in time
+    T* item;        ///< for the producer to fill next
+    bool replaced;  ///< the item is a fresh one that the consumer did not take in time
   };
 
   explicit Mailbox(T* spare) : place_(address(spare)) {}
@@ -28,12 +28,12 @@ class Mailbox {
     return {item(before), replaced};
   }
 
-  /// Producer thread only: nothing will be put in any more.
+  /// Producer thread only: no more items will come.
   void close() { wake_.signal(); }
 
-  /// Consumer thread only: waits for a fresh item and leaves `spare` for it, which may be null only if what
-  /// the producer would get for it does not matter any more. Null when closed and empty; `spare` is then
-  /// still the caller's.
+  /// Consumer thread only: waits for a fresh item and leaves `spare` in its place. `spare` may be null only
+  /// if the producer no longer needs an item. Returns null when closed and empty; `spare` then stays with the
+  /// caller.
   T* take(T* spare) {
     while (!wake_.wait()) {  // false: a signal handler ran
     }

@@ -13,7 +13,7 @@ using std::chrono::microseconds;
 
 constexpr std::int64_t kLongestGap_us = 2'000'000;
 constexpr double kUsualRate_hz = 30;
-constexpr std::chrono::milliseconds kLateness{100};  // more than this is not caught up with
+constexpr std::chrono::milliseconds kLateness{100};  // a greater delay is not made up for
 
 }  // namespace
 
@@ -61,7 +61,7 @@ ReadResult PacedSource::read(Frame& frame, std::chrono::milliseconds timeout) {
 
 ReadResult PacedSource::read_live(Lock& lock, Frame& frame, Time deadline) {
   PlaybackControls& p = *playback_;
-  p.wanted_.reset();  // there is nowhere to go
+  p.wanted_.reset();  // a live source cannot seek
   while (!interrupted_) {
     if (std::exchange(p.again_, false) && has_last_) {
       copy_last(frame);
@@ -93,7 +93,7 @@ ReadResult PacedSource::read_recorded(Lock& lock, Frame& frame, Time deadline) {
     }
     Time when = deadline;
     if (p.state_.paused && !going_) {
-      // Only a button changes that.
+      // Only the controls end this.
     } else if (!has_ahead_) {
       const ReadResult result = next_ < end_ ? fetch(lock) : turn_at_end();
       if (result.status == ReadStatus::frame) continue;
@@ -108,7 +108,7 @@ ReadResult PacedSource::read_recorded(Lock& lock, Frame& frame, Time deadline) {
   return {ReadStatus::timeout, ""};
 }
 
-// What somebody wants to see comes next, at once.
+// Makes the requested frame the next one, due at once.
 void PacedSource::go_to_wanted() {
   PlaybackControls& p = *playback_;
   const std::int64_t last = range_.start + (end_ - 1 - range_.start) / range_.every * range_.every;
@@ -123,8 +123,8 @@ void PacedSource::go_to_wanted() {
   next_ = index;
 }
 
-// Reads the next frame of the range ahead, without the lock. `frame`: it is there, or there may be a new
-// wish.
+// Reads the next frame of the range ahead, without the lock. Returns `frame` if it was read, or if the source
+// ended early.
 ReadResult PacedSource::fetch(Lock& lock) {
   lock.unlock();
   ReadResult result;
@@ -141,14 +141,14 @@ ReadResult PacedSource::fetch(Lock& lock) {
       if (going_ && playback_->way_ < 0) {
         next_ -= 2 * range_.every;
         at_next_ = false;
-        if (next_ < range_.start) {  // nothing before it: stay where it was
+        if (next_ < range_.start) {  // no frame before it: stay where it was
           going_ = false;
           playback_->going_to_.reset();
           next_ = std::max(playback_->state_.position, range_.start - range_.every) + range_.every;
         }
       }
       break;
-    case ReadStatus::end:  // the recording is shorter than it says
+    case ReadStatus::end:  // the recording has fewer frames than announced
       end_ = next_;
       result.status = ReadStatus::frame;
       break;
@@ -158,8 +158,8 @@ ReadResult PacedSource::fetch(Lock& lock) {
   return result;
 }
 
-// Behind the last frame: the next turn of the loop, or the player stops. `frame`: go on; `end`: there is
-// none.
+// Past the last frame: begins the next turn of the loop, or pauses. Returns `end` if no frame was usable,
+// else `frame`.
 ReadResult PacedSource::turn_at_end() {
   PlaybackControls& p = *playback_;
   if (!any_usable_) return {ReadStatus::end, ""};
@@ -175,7 +175,7 @@ ReadResult PacedSource::turn_at_end() {
   return {ReadStatus::frame, ""};
 }
 
-// Whether the frame read ahead may be given now; if only time is missing, `when` is set to when it may.
+// Whether the frame read ahead may be given now; if it only has to wait, sets `when` to its time.
 bool PacedSource::is_due(Time& when) {
   PlaybackControls& p = *playback_;
   if (going_) return true;
@@ -184,7 +184,7 @@ bool PacedSource::is_due(Time& when) {
   if (speed == 0) return p.taken_;
   if (p.rebase_ || !has_last_) return true;
   std::int64_t gap_us = ahead_.timestamp_us - last_.timestamp_us;
-  if (gap_us <= 0)  // the loop begins again
+  if (gap_us <= 0)  // the loop has begun again
     gap_us = static_cast<std::int64_t>(1e6 / (info().rate_hz > 0 ? info().rate_hz : kUsualRate_hz));
   gap_us = std::min(gap_us, kLongestGap_us);
   const Time due = last_due_ + microseconds(static_cast<std::int64_t>(static_cast<double>(gap_us) / speed));

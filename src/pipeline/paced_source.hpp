@@ -8,18 +8,18 @@
 
 namespace saccade {
 
-/// Plays a recording as if it were a live source: each frame comes when its timestamp is due, and
-/// PlaybackControls's buttons pause it, step, seek, loop and change the speed. A hole in the timestamps of
-/// more than two seconds is not waited for. At the end, without a loop, it pauses: read() never returns `end`
-/// unless the recording has no frame at all that could be shown. Of a live source frames are passed on as
-/// they come; it can be paused, and its last frame be shown again.
+/// Plays a recording like a live source: each frame comes when its timestamp is due, and PlaybackControls
+/// pauses, steps, seeks, loops and changes the speed. Gaps of more than two seconds between timestamps are
+/// shortened to two seconds. At the end, without a loop, it pauses: read() returns `end` only if the
+/// recording has no usable frame at all. The frames of a live source are passed on as they come; it can be
+/// paused, and its last frame shown again.
 ///
-/// read() waits at most for its timeout. Frames that cannot be used are told as `rejected`, and a step goes
-/// on in its direction.
+/// read() waits at most for its timeout. It returns `rejected` for frames that cannot be used; a step then
+/// continues in its direction.
 class PacedSource final : public FrameSource {
  public:
-  /// Starts with the first frame of the range, which is ignored for live sources. `clock` is the system's if
-  /// null.
+  /// Starts with the first frame of the range, which is ignored for live sources. Without a `clock`, uses the
+  /// system's.
   PacedSource(std::unique_ptr<FrameSource> source, std::shared_ptr<PlaybackControls> playback,
               PlayRange range = {}, std::shared_ptr<PlayClock> clock = nullptr);
 
@@ -47,16 +47,16 @@ class PacedSource final : public FrameSource {
   std::shared_ptr<PlaybackControls> playback_;
   PlayRange range_;
   std::shared_ptr<PlayClock> clock_;
-  std::int64_t end_ = 0;     // behind the last index of the range
-  std::int64_t next_ = 0;    // index that is read next
-  bool at_next_ = true;      // the source stands there
-  bool has_ahead_ = false;   // ahead_ is read and waits until it is due
-  bool has_last_ = false;    // last_ is what was given last
-  bool going_ = true;        // somebody waits for the next frame: neither pause nor time holds it up
-  bool any_usable_ = false;  // since the last turn of the loop
+  std::int64_t end_ = 0;     // one past the last index of the range
+  std::int64_t next_ = 0;    // index to read next
+  bool at_next_ = true;      // the source is positioned there
+  bool has_ahead_ = false;   // ahead_ has been read and waits until it is due
+  bool has_last_ = false;    // last_ is the frame given last
+  bool going_ = true;        // the next frame is given at once, whatever its time, and in a pause too
+  bool any_usable_ = false;  // since the start of this turn of the loop
   Frame ahead_, last_;
   Time last_due_{}, due_{};   // of the frame given last, of the one read ahead
-  bool interrupted_ = false;  // guarded by the playback's mutex, as is the use of all above
+  bool interrupted_ = false;  // guarded by the mutex of playback_, as are all members above
 };
 
 }  // namespace saccade

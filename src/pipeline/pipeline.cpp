@@ -26,7 +26,7 @@ void ReturnSlot::operator()(Result* result) const {
   if (result != nullptr) pipeline->give_back(result);
 }
 
-// A ring has room for every slot, the end mark and one wish to stop: a push never waits.
+// Each ring has room for every slot, the end mark and a stop request, so that a push never waits.
 Pipeline::Pipeline(std::unique_ptr<FrameSource> source, std::unique_ptr<FrameProcessor> processor,
                    PipelineOptions options)
     : source_(std::move(source)),
@@ -37,8 +37,8 @@ Pipeline::Pipeline(std::unique_ptr<FrameSource> source, std::unique_ptr<FramePro
       captured_(slots_.size() + 2),
       computed_(slots_.size() + 2),
       newest_(slots_[0].get()),
-      state_watch_(*source_, options_.on_state) {
-  // With `newest` two slots are in other hands already: one in the mailbox, one with capture.
+      notifier_(*source_, options_.on_state) {
+  // With `newest`, two slots are in use from the start: one in the mailbox, one in capture.
   for (std::size_t i = keeps_newest() ? 2 : 0; i < slots_.size(); ++i) free_.push(slots_[i].get());
   compute_thread_ = std::jthread([this] { compute(); });
   capture_thread_ = std::jthread([this] { capture(); });
@@ -66,7 +66,7 @@ ResultHandle Pipeline::next() {
 void Pipeline::stop() noexcept {
   if (stopping_.exchange(true)) return;
   source_->interrupt();
-  give_back(nullptr);  // wakes whoever waits for a slot
+  give_back(nullptr);  // wakes the thread that waits for a slot
 }
 
 void Pipeline::give_back(Result* slot) noexcept {
@@ -106,7 +106,7 @@ void Pipeline::capture_frames() {
     slot->times = {};
     const ReadResult read = read_into(*slot);
     if (read.status == ReadStatus::end) return;
-    state_watch_.after_read(read.status);
+    notifier_.after_read(read.status);
     if (read.status == ReadStatus::timeout) continue;
     if (!seekable && slot->frame.index < wanted) continue;
     const std::int64_t index = slot->frame.index;

@@ -24,18 +24,17 @@ namespace saccade {
 
 enum class FramePolicy {
   every_frame,  ///< all frames, in order; capture waits while no slot is free
-  newest,       ///< capture never waits; a frame that a newer one overtakes before its turn is dropped
+  newest,       ///< capture never waits; a frame that a newer one overtakes is dropped
 };
 
 struct PipelineOptions {
   FrameSettings frames;  ///< its limit counts captured frames (every_frame) or results (newest)
   FramePolicy policy = FramePolicy::every_frame;
-  /// Frames in memory at once: >= 2, and >= 3 for `newest`, of which the consumer may hold all but two.
+  /// Frames in memory: >= 2, and >= 3 for `newest`, of which the consumer may hold all but two.
   int slots = 4;
   /// Called on the capture thread for each frame that cannot be used.
   std::function<void(std::int64_t index, const std::string& reason)> on_rejected;
-  /// Called on the capture thread with what is new of a source (SourceStateNotifier): its device is lost, or
-  /// back.
+  /// Called on the capture thread with changes of the source's state (SourceStateNotifier).
   std::function<void(const SourceState&)> on_state;
 };
 
@@ -101,14 +100,14 @@ class Pipeline {
   std::unique_ptr<FrameProcessor> processor_;
   PipelineOptions options_;
   std::vector<std::unique_ptr<Result>> slots_;
-  // In each ring a null pointer is the end mark (in free_: the wish to stop).
+  // In each ring a null pointer is the end mark (in free_: a stop request).
   Ring<Result*> free_, captured_, computed_;
   Mailbox<Result> newest_;
-  std::mutex give_back_mutex_;  // any thread gives slots back; the ring allows one producer at a time
+  std::mutex give_back_mutex_;  // any thread gives slots back, and a ring allows one producer at a time
   std::atomic<bool> stopping_ = false;
   LedgerCounters counters_;
-  std::int64_t results_ = 0;         // compute thread only
-  SourceStateNotifier state_watch_;  // capture thread only
+  std::int64_t results_ = 0;      // compute thread only
+  SourceStateNotifier notifier_;  // capture thread only
   std::mutex error_mutex_;
   std::exception_ptr error_;   // guarded by error_mutex_; the first
   bool ended_ = false;         // consumer's thread only

@@ -7,7 +7,7 @@ namespace saccade {
 void PlaybackControls::play() {
   {
     const std::lock_guard lock(mutex_);
-    if (state_.at_end) wanted_ = 0;  // is brought into the range that is played
+    if (state_.at_end) wanted_ = 0;  // clamped to the range by the source
     state_.paused = state_.at_end = false;
     rebase_ = true;
     way_ = 1;

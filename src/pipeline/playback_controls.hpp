@@ -12,62 +12,62 @@
 
 namespace saccade {
 
-/// What time it is and how to wait for it; tests have one of their own.
+/// The clock of a player; tests replace it.
 class PlayClock {
  public:
   using Time = std::chrono::steady_clock::time_point;
   virtual ~PlayClock() = default;
   virtual Time now() { return std::chrono::steady_clock::now(); }
-  /// Waits until `until`, or until somebody signals `changed`.
+  /// Waits until `until`, or until `changed` is signalled.
   virtual void wait(std::unique_lock<std::mutex>& lock, std::condition_variable& changed, Time until) {
     changed.wait_until(lock, until);
   }
 };
 
-/// The frames of a recording that are played: start, start + every, ...; at most `limit` of them.
+/// The frames of a recording to play: start, start + every, ...; at most `limit` of them.
 struct PlayRange {
   std::int64_t start = 0;
   std::int64_t every = 1;
   std::int64_t limit = 0;  ///< 0 = all
 };
 
-/// Where a player stands.
+/// The state of a player.
 struct PlaybackState {
   bool paused = false;
   bool loop = true;
-  double speed = 1;            ///< of the recorded time; 0 = as fast as the frames can be computed
+  double speed = 1;            ///< relative to the recorded time; 0 = as fast as the frames can be computed
   std::int64_t position = -1;  ///< index of the frame given last; -1 = none yet
   bool at_end = false;         ///< paused because there is no further frame
 };
 
-/// The buttons of a player. They belong to who pushes them; a PacedSource does what they say. They keep
-/// their state when the next source is opened, except for the position. Any thread may call anything.
+/// The controls of a player; a PacedSource obeys them. They outlast the source and keep their state, except
+/// for the position, when the next one is opened. Any thread may call any function.
 class PlaybackControls {
  public:
   static constexpr double kSlowest = 0.1, kFastest = 8;
 
-  void play();  ///< from the start if it stands at the end
+  void play();  ///< at the end, plays from the start
   void pause();
   void toggle() { state().paused ? play() : pause(); }
   void set_loop(bool loop);
   /// kSlowest..kFastest, clamped, or 0 for as fast as possible.
   void set_speed(double speed);
 
-  /// Pauses and goes so many frames on (> 0) or back (< 0).
+  /// Pauses and moves by `frames`, forwards (> 0) or backwards (< 0).
   void step(std::int64_t frames);
 
-  /// Goes to a frame, which is given next, whether paused or not.
+  /// Makes the frame at `index` the next one, paused or not.
   void seek(std::int64_t index);
 
-  /// Gives the frame that was given last once more, because it is to be computed in another way. What is
-  /// played goes on as if nothing had happened.
+  /// Gives the last frame once more, to be computed with other settings. Playback is not affected.
   void show_again();
 
-  /// The consumer has begun with the frame given last: when it is played as fast as possible the next may
-  /// come.
+  /// Reports that the consumer has begun to compute the last frame. At the speed "as fast as possible" the
+  /// next one is given then.
   void taken();
 
-  /// Is called with each new frame, on the thread that captures; empty = nobody. Must not call back.
+  /// A function to call with each new frame, on the capture thread; empty = none. It must not call any
+  /// function of the controls.
   void set_tap(std::function<void(const Frame&)> tap);
 
   PlaybackState state() const;
@@ -79,12 +79,13 @@ class PlaybackControls {
   std::condition_variable changed_;
   // All guarded by mutex_.
   PlaybackState state_;
-  std::optional<std::int64_t> wanted_;    // frame to go to
-  std::optional<std::int64_t> going_to_;  // the last of these that was taken up, until a frame is given
-  std::int64_t way_ = 1;                  // where to look on if that frame cannot be used
+  std::optional<std::int64_t> wanted_;  // index requested by step() or seek()
+  std::optional<std::int64_t>
+      going_to_;          // the last wanted_ that the source has accepted, until it gives a frame
+  std::int64_t way_ = 1;  // direction to continue in if that frame cannot be used
   bool again_ = false;
   bool taken_ = true;
-  bool rebase_ = true;  // the frame given next is due at once
+  bool rebase_ = true;  // the next frame is due at once
   std::shared_ptr<std::function<void(const Frame&)>> tap_;
 };
 

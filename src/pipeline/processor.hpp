@@ -8,12 +8,13 @@
 
 namespace saccade {
 
-/// Computes a frame's saliency and attention. One thread at a time calls process().
+/// Computes a frame's saliency and attention points. One thread at a time calls process().
 class FrameProcessor {
  public:
   virtual ~FrameProcessor() = default;
 
-  /// `result.frame` is filled; fills the rest, reusing its memory. Throws Error if no frame can be processed.
+  /// Fills the rest of `result` from result.frame, reusing its memory. Throws Error if no frame can be
+  /// processed.
   virtual void process(Result& result) = 0;
 };
 

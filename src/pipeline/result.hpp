@@ -10,25 +10,25 @@
 
 namespace saccade {
 
-/// A frame and all that was computed from it. Its memory belongs to the pipeline and is used again.
+/// A frame and the results for it. Its memory belongs to the pipeline and is reused.
 struct Result {
   Frame frame;
   SaliencyMaps maps;
   Attention attention;
   StageTimes times;
-  std::chrono::steady_clock::time_point captured_at;  ///< when the source had delivered the frame
+  std::chrono::steady_clock::time_point captured_at;  ///< when the source delivered the frame
 };
 
 class Pipeline;
 
-/// Gives the result's slot back to its pipeline; on any thread.
+/// Returns the slot of a result to its pipeline. Any thread.
 struct ReturnSlot {
   Pipeline* pipeline = nullptr;
   void operator()(Result* result) const;
 };
 
-/// The consumer's hold on one result. Hold few and not for long: a held slot is one that the pipeline waits
-/// for. Must not outlive the pipeline.
+/// The consumer's ownership of one result. Keep few and not for long, since the pipeline waits for free
+/// slots. Must not outlive the pipeline.
 using ResultHandle = std::unique_ptr<Result, ReturnSlot>;
 
 }  // namespace saccade

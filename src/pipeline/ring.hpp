@@ -7,7 +7,7 @@
 
 namespace saccade {
 
-/// A bounded lock-free queue from one producer thread to one consumer thread that sleep while they wait.
+/// A bounded lock-free queue from one producer thread to one consumer thread, which sleep while they wait.
 /// The pipeline gives every ring room for all slots and an end mark, so push() never waits.
 template <typename T>
 class Ring {

@@ -9,38 +9,38 @@
 
 namespace saccade {
 
-/// Notices what is new of a source that is read: its device is lost, or back, or does something otherwise
-/// than asked. Looks only where the source has waited, so that a frame that comes in time costs nothing.
+/// Reports changes of a source's state while it is read: the device was lost, or reconnected, or did not
+/// apply a setting. Checks the state only after a read that waited, so that a frame in time costs nothing.
 /// For the thread that reads.
 class SourceStateNotifier {
  public:
-  /// `tell` may be empty. It gets notes only where they are not those that it got last; at first, those of
-  /// info().
-  SourceStateNotifier(const FrameSource& source, std::function<void(const SourceState&)> tell)
+  /// `report` may be empty. It gets the notes only if they differ from those of the last report, or at first
+  /// from those of info().
+  SourceStateNotifier(const FrameSource& source, std::function<void(const SourceState&)> report)
       : source_(source),
-        tell_(std::move(tell)),
+        report_(std::move(report)),
         waited_(source.state().connection != SourceState::Connection::streaming),
         notes_(source.info().notes) {}
 
   /// After each read(), with what it gave.
   void after_read(ReadStatus status) {
     const bool waited = std::exchange(waited_, status == ReadStatus::timeout);
-    if (!tell_ || (!waited && !waited_)) return;
+    if (!report_ || (!waited && !waited_)) return;
     SourceState state = source_.state();
     const bool moved = std::exchange(connection_, state.connection) != state.connection;
     if (state.connection != SourceState::Connection::streaming || state.notes == notes_)
       state.notes.clear();
     else
       notes_ = state.notes;
-    if (moved || !state.notes.empty()) tell_(state);
+    if (moved || !state.notes.empty()) report_(state);
   }
 
  private:
   const FrameSource& source_;
-  const std::function<void(const SourceState&)> tell_;
-  bool waited_;                                                              // the last read() gave nothing
-  SourceState::Connection connection_ = SourceState::Connection::streaming;  // as told
-  std::vector<std::string> notes_;                                           // likewise
+  const std::function<void(const SourceState&)> report_;
+  bool waited_;                                                              // the last read() gave no frame
+  SourceState::Connection connection_ = SourceState::Connection::streaming;  // of the last report
+  std::vector<std::string> notes_;  // of the last report that had any
 };
 
 }  // namespace saccade

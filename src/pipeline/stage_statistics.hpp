@@ -7,7 +7,8 @@
 
 namespace saccade {
 
-/// Durations in bins that grow by 2 %: fixed memory however long a session lasts, percentiles good to 1 %.
+/// A histogram of durations with bins that grow by 2 %: its memory is fixed, and percentiles are exact to 1
+/// %.
 class DurationHistogram {
  public:
   void add(double ms);
@@ -16,7 +17,7 @@ class DurationHistogram {
   double mean_ms() const { return count_ ? sum_ms_ / static_cast<double>(count_) : 0; }
   double max_ms() const { return max_ms_; }
 
-  /// The duration that a share `p` (0..1) of all does not exceed; 0 if there are none.
+  /// The duration that the share `p` (0..1) of all does not exceed; 0 if there are none.
   double percentile_ms(double p) const;
 
  private:

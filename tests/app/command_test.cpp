@@ -27,7 +27,7 @@ TEST(FitToDepth, LeavesSourcesWithDepthAlone) {
   EXPECT_THAT(source.notes, IsEmpty());
 }
 
-TEST(FitToDepth, RefusesModelsOfDepthWhereThereIsNone) {
+TEST(FitToDepth, RefusesModelsThatNeedDepthWithoutIt) {
   for (const char* model : {"symmetry3d", "combined"}) {
     Settings settings;
     settings.model = model;

@@ -1,4 +1,4 @@
-// saccade doctor and devices, on machines that are made of folders.
+// `saccade doctor` and `saccade devices`, on machines made of folders.
 #include "app/doctor.hpp"
 
 #include <unistd.h>
@@ -72,10 +72,10 @@ TEST_F(DoctorTest, FindsOpenNi2WithTheStockAndOurModules) {
   EXPECT_THAT(names, ::testing::IsSupersetOf({"PS1080", "PSLink", "SaccadeFreenect", "SaccadeVirtual"}));
 }
 
-TEST_F(DoctorTest, AMachineWithoutUsbIsToldToPlugOneIn) {
-  const json report = doctor();  // there is no sys folder at all
+TEST_F(DoctorTest, WithoutUsbDevicesTheRemedyIsToPlugOneIn) {
+  const json report = doctor();  // there is no sys folder
   EXPECT_EQ(report["usb"].size(), 0U);
-  EXPECT_THAT(all_problems(report), HasSubstr("no USB device looks like a sensor -> plug it in"));
+  EXPECT_THAT(all_problems(report), HasSubstr("no USB device looks like a sensor -> plug one in"));
   EXPECT_FALSE(report["ok"]);
 }
 
@@ -94,7 +94,7 @@ TEST_F(DoctorTest, AKinectWithoutPermissionAndRuleGetsTheRule) {
   EXPECT_THAT(problems, HasSubstr("udevadm control --reload"));
 }
 
-TEST_F(DoctorTest, ARuleThatIsThereNeedsOnlyToBeApplied) {
+TEST_F(DoctorTest, AnExistingRuleOnlyNeedsToBeApplied) {
   plug_in("1-1.2", "045e:02ae", "480", 0600);
   add_rule("045e:02ae");
   const json report = doctor();
@@ -151,7 +151,7 @@ TEST_F(DoctorTest, ProblemsOfTheInstallationComeFirst) {
   EXPECT_THAT(problems[2].what, HasSubstr("no USB device"));
 }
 
-TEST_F(DoctorTest, DevicesTellsWhatIsConnectedOrThatNothingIs) {
+TEST_F(DoctorTest, DevicesListsTheSensorsOrReportsThatThereAreNone) {
   const ProgramResult none = run_saccade({"devices"});
   EXPECT_EQ(none.status, 0) << none.err;
   EXPECT_THAT(none.out, HasSubstr("no sensor is connected"));

@@ -1,4 +1,4 @@
-// The program as it is installed: it finds OpenNI2 and the driver modules beside itself.
+// The installed program finds OpenNI2 and the driver modules beside itself.
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>

@@ -1,4 +1,4 @@
-// run and record on a live device, as a user meets it: slow processing, losses, Ctrl-C. The device is the
+// `saccade run` and `saccade record` on a live source: slow processing, dropouts, Ctrl-C. The device is the
 // virtual one, through OpenNI2 and our driver module.
 #include <sched.h>
 #include <signal.h>
@@ -23,7 +23,7 @@ using ::testing::HasSubstr;
 
 class LiveTest : public ProgramTest {
  protected:
-  // What the program will find as its sensor.
+  // Sets the sensor that the program finds.
   static void plug_in(const std::string& faults) {
     const std::string device = "synthetic:table?size=160x120&noise=kinect&frames=5&scenes=5" + faults;
     ::setenv("SACCADE_VIRTUAL_DEVICE", device.c_str(), 1);
@@ -37,8 +37,8 @@ class LiveTest : public ProgramTest {
     return std::count(all.begin(), all.end(), '\n');
   }
 
-  // Everything is accounted for, and each result is in the files.
-  void expect_whole() const {
+  // Every frame is counted, and every result is in the files.
+  void expect_complete() const {
     const json report = manifest(), ledger = report["ledger"];
     const auto of = [&](const char* key) { return ledger[key].get<std::int64_t>(); };
     EXPECT_EQ(of("captured"), of("processed") + of("dropped") + of("rejected"));
@@ -48,7 +48,7 @@ class LiveTest : public ProgramTest {
   }
 };
 
-TEST_F(LiveTest, RunsSoManyFramesAsAskedAndTellsTheLatency) {
+TEST_F(LiveTest, RunsTheRequestedNumberOfFramesAndReportsTheLatency) {
   plug_in("");
   const ProgramResult outcome =
       run_saccade({"run", "openni2", "--frames", "20", "--out", in("out"), "--json"});
@@ -61,7 +61,7 @@ TEST_F(LiveTest, RunsSoManyFramesAsAskedAndTellsTheLatency) {
   EXPECT_EQ(manifest()["intrinsics"]["from"], "sensor");
   EXPECT_EQ(manifest()["source"]["kind"], "openni2");
   EXPECT_TRUE(std::filesystem::exists(in("out/000000_saliency.tiff")));
-  expect_whole();
+  expect_complete();
 }
 
 TEST_F(LiveTest, SlowProcessingDropsFramesInsteadOfFallingBehind) {
@@ -72,24 +72,23 @@ TEST_F(LiveTest, SlowProcessingDropsFramesInsteadOfFallingBehind) {
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   const json summary = json::parse(outcome.out);
   EXPECT_GT(summary["dropped_by"]["newer_frame"], 0) << "the device is faster";
-  // Whatever the machine: one of 15 frames takes about 1/15 of the run, and a queue would fill a good part of
-  // it.
+  // On any machine, one of 15 frames takes about 1/15 of the run; with a queue it would take a large part.
   EXPECT_LT(summary["latency_ms"]["p95"].get<double>(), 1000 * summary["wall_s"].get<double>() / 3);
-  expect_whole();
+  expect_complete();
 }
 
-TEST_F(LiveTest, ALostDeviceIsWaitedForAndCounted) {
+TEST_F(LiveTest, WaitsForALostDeviceAndCountsTheDropouts) {
   for (const std::string loss : {"event", "state"}) {
     plug_in("&loss_after=8&back_after_ms=50&loss=" + loss);
     const ProgramResult outcome =
         run_saccade({"run", "openni2", "--frames", "20", "--out", in("out"), "--dump", "none", "--json"});
     ASSERT_EQ(outcome.status, 0) << outcome.err;
-    EXPECT_THAT(outcome.err, HasSubstr("is lost")) << "it is told";
-    EXPECT_THAT(outcome.err, HasSubstr("streams again"));
+    EXPECT_THAT(outcome.err, HasSubstr("is lost")) << loss;
+    EXPECT_THAT(outcome.err, HasSubstr("reconnected"));
     const json device = json::parse(outcome.out)["device"];
     EXPECT_GE(device["losses"], 2);
     EXPECT_GT(device["away_s"], 0.05);
-    expect_whole();
+    expect_complete();
     std::filesystem::remove_all(in("out"));
   }
 }
@@ -110,7 +109,7 @@ TEST_F(LiveTest, WithoutReconnectLosingTheDeviceIsAnError) {
   EXPECT_EQ(outcome.status, 1);
   EXPECT_TRUE(outcome.one_error_line());
   EXPECT_EQ(manifest()["status"], "failed");
-  expect_whole();
+  expect_complete();
 }
 
 TEST_F(LiveTest, ADeviceMayComeLate) {
@@ -121,7 +120,7 @@ TEST_F(LiveTest, ADeviceMayComeLate) {
   EXPECT_EQ(manifest()["intrinsics"]["from"], "sensor") << "though it was not known at the start";
 }
 
-TEST_F(LiveTest, ADeviceNamedByARelativePathIsSeenFromWhereTheProgramWasStarted) {
+TEST_F(LiveTest, ARelativePathOfADeviceStartsAtTheWorkingDirectory) {
   bool allowed = false;
   std::thread([&allowed] { allowed = ::unshare(CLONE_FS) == 0; }).join();
   if (!allowed) GTEST_SKIP() << "threads may not have a working directory of their own here";
@@ -154,10 +153,10 @@ TEST_F(LiveTest, ShortFramesAreRejectedAndNamed) {
   const json report = manifest();
   EXPECT_GE(report["ledger"]["rejected"], 3);
   EXPECT_THAT(report["rejected"][0]["reason"].get<std::string>(), HasSubstr("19200 bytes, not 38400"));
-  expect_whole();
+  expect_complete();
 }
 
-TEST_F(LiveTest, SettingsThatDoNothingAreTold) {
+TEST_F(LiveTest, SettingsThatTheDeviceIgnoresAreReported) {
   plug_in("&ignores_settings=1");
   const ProgramResult outcome =
       run_saccade({"run", "openni2", "--mirror", "--exposure", "20", "--white-balance", "fixed", "--frames",
@@ -169,7 +168,7 @@ TEST_F(LiveTest, SettingsThatDoNothingAreTold) {
   EXPECT_EQ(run_saccade({"run", "openni2", "--mode", "1x1@30", "--out", in("no")}).status, 2);
 }
 
-TEST_F(LiveTest, SettingsThatDoNothingAreToldOfADeviceThatComesLateOrAgainToo) {
+TEST_F(LiveTest, SettingsThatALateOrReconnectedDeviceIgnoresAreReported) {
   plug_in("&ignores_settings=1&late_ms=300&loss_after=4&back_after_ms=50");
   const ProgramResult outcome = run_saccade({"run", "openni2", "--mode", "160x120", "--mirror", "--frames",
                                              "12", "--out", in("out"), "--dump", "none", "--json"});
@@ -183,7 +182,7 @@ TEST_F(LiveTest, SettingsThatDoNothingAreToldOfADeviceThatComesLateOrAgainToo) {
   EXPECT_THAT(device["notes"].dump(), HasSubstr(what));
 }
 
-TEST_F(LiveTest, InterruptedAtAnyMomentItEndsSoonWithWholeFiles) {
+TEST_F(LiveTest, InterruptedAtAnyMomentItEndsSoonWithCompleteFiles) {
   plug_in("&loss_after=20&back_after_ms=120");
   for (int k = 0; k < 12; ++k) {
     std::filesystem::remove_all(in("out"));
@@ -194,7 +193,7 @@ TEST_F(LiveTest, InterruptedAtAnyMomentItEndsSoonWithWholeFiles) {
     EXPECT_EQ(outcome.status, 0) << outcome.err;
     EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(20)) << "it does not hang";
     EXPECT_EQ(manifest()["status"], "interrupted");
-    expect_whole();
+    expect_complete();
   }
 }
 
@@ -223,7 +222,7 @@ TEST_F(LiveTest, FramesThatCannotBeRecordedAreCountedInOneLine) {
   EXPECT_THAT(outcome.err, HasSubstr("frames rejected, the first, frame"));
 }
 
-TEST_F(LiveTest, RecordingEndsWithAWholeFileWhenTheDeviceIsGone) {
+TEST_F(LiveTest, RecordingEndsWithACompleteFileWhenTheDeviceIsGone) {
   plug_in("&loss_after=10");
   const ProgramResult outcome = run_saccade({"record", "openni2", in("a.oni"), "--no-reconnect"});
   EXPECT_EQ(outcome.status, 1);

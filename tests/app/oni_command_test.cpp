@@ -26,7 +26,7 @@ class OniCommandTest : public ProgramTest {
   }
 };
 
-TEST_F(OniCommandTest, InfoTellsTheStreams) {
+TEST_F(OniCommandTest, InfoListsTheStreams) {
   const ProgramResult outcome = run_saccade({"oni", "info", in("a.oni"), "--json"});
   ASSERT_EQ(outcome.status, 0);
   const json streams = json::parse(outcome.out)["streams"];
@@ -73,7 +73,7 @@ TEST_F(OniCommandTest, RepairMakesASoundFileBesideTheOriginal) {
   EXPECT_EQ(run_saccade({"oni", "repair", in("cut.oni"), in("cut.oni"), "--force"}).status, 2);
 }
 
-TEST_F(OniCommandTest, WhatIsNoRecordingIsOneLineAndStatus3) {
+TEST_F(OniCommandTest, AFileThatIsNoRecordingIsOneLineAndStatus3) {
   write_file(in("text.oni"), std::string_view("not a recording, but long enough to be one"));
   for (const std::string command : {"info", "check", "repair"})
     for (const std::string& file : {in("text.oni"), in("absent.oni"), folder_.string()}) {

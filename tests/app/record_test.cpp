@@ -1,4 +1,4 @@
-// saccade record, as a user meets it: killed, interrupted, on a full disk.
+// `saccade record`: killed, interrupted, on a full disk.
 #include <signal.h>
 #include <sys/mount.h>
 #include <sys/resource.h>
@@ -20,12 +20,12 @@ namespace {
 
 using ::testing::HasSubstr;
 
-// Whole millimetres with noise, so that every frame is another one.
+// Integer millimetres with noise, so that every frame is different.
 const std::string kSource = "synthetic:sphere?size=80x60&noise=kinect&frames=100000";
 
 class RecordTest : public ProgramTest {
  protected:
-  // All frames of the recording are those of the source, from the first on; returns how many there are.
+  // Checks that the frames of the recording are the first ones of the source; returns their number.
   std::int64_t expect_frames_of_source(const std::string& file) {
     Recording recording{std::filesystem::path(file)};
     const OniNode* node = main_depth(recording);
@@ -47,7 +47,7 @@ class RecordTest : public ProgramTest {
   }
 };
 
-TEST_F(RecordTest, WritesSoManyFramesAsAskedAndTellsIt) {
+TEST_F(RecordTest, WritesTheRequestedNumberOfFramesAndReportsIt) {
   const ProgramResult outcome = run_saccade({"record", kSource, in("a.oni"), "--frames", "25", "--json"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   const auto json = nlohmann::json::parse(outcome.out);
@@ -90,7 +90,7 @@ TEST_F(RecordTest, CtrlCAndTermCloseTheFile) {
   }
 }
 
-TEST_F(RecordTest, KilledAtAnyMomentTheFramesAreThere) {
+TEST_F(RecordTest, KilledAtAnyMomentTheFileHasItsFrames) {
   for (int k = 0; k < 20; ++k) {
     const ProgramResult outcome =
         run_saccade({"record", kSource, in("k.oni")}, 7 + 13 * k, in("k.oni"), SIGKILL);
@@ -101,9 +101,9 @@ TEST_F(RecordTest, KilledAtAnyMomentTheFramesAreThere) {
     }
     const auto frames = expect_frames_of_source(in("k.oni"));
     if (frames > 0) {
-      repair_recording(in("k.oni"), in("mended.oni"), true);
-      EXPECT_EQ(expect_frames_of_source(in("mended.oni")), frames);
-      EXPECT_TRUE(sound(in("mended.oni")));
+      repair_recording(in("k.oni"), in("repaired.oni"), true);
+      EXPECT_EQ(expect_frames_of_source(in("repaired.oni")), frames);
+      EXPECT_TRUE(sound(in("repaired.oni")));
     }
     std::filesystem::remove(in("k.oni"));
   }

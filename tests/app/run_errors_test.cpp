@@ -1,4 +1,4 @@
-// `saccade` given what it cannot use: one line that says so, and the exit status of SPEC section 7.
+// `saccade` with input that it cannot use: one line of error, and the exit status.
 
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
@@ -18,7 +18,7 @@ const std::string kScene = "synthetic:table?frames=2&size=160x120";
 
 class RunErrorsTest : public ProgramTest {
  protected:
-  // Runs on the scene with more arguments and expects one line of error that holds `text`.
+  // Runs on the scene with more arguments and expects one line of error that contains `text`.
   void expect(int status, const std::string& part, const std::vector<std::string>& more,
               const std::string& source = kScene, const std::string& out = "out") const {
     std::vector<std::string> arguments = {"run", source, "--out", in(out)};
@@ -51,7 +51,7 @@ TEST_F(RunErrorsTest, OptionsOutOfRange) {
   EXPECT_FALSE(fs::exists(folder_ / "out")) << "nothing is made before the command line is right";
 }
 
-TEST_F(RunErrorsTest, ModelsThatCannot) {
+TEST_F(RunErrorsTest, ModelsThatDoNotFit) {
   expect(kUsage, "model itti has no levels to dump", {"--model", "itti", "--dump", "maps,levels"});
   expect(kUsage, "model centre has no normals to dump", {"--model", "centre", "--dump", "normals"});
   expect(kUsage, "try --levels 0..4", {"--model", "combined", "--levels", "0..5"});

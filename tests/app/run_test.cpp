@@ -1,4 +1,4 @@
-// `saccade run` as a user starts it: what it writes.
+// `saccade run`: the files that it writes.
 
 #include <cmath>
 #include <set>
@@ -19,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-// Small and quick; two levels fit.
+// Small and fast; two levels fit.
 const std::string kScene = "synthetic:table?seed=3&noise=kinect&size=160x120&frames=6&camera=orbit";
 
 class RunTest : public ProgramTest {
@@ -109,7 +109,7 @@ TEST_F(RunTest, SameBytesForAnyNumberOfWorkersTwice) {
   }
 }
 
-TEST_F(RunTest, DumpsWhatIsAskedFor) {
+TEST_F(RunTest, DumpsTheRequestedFiles) {
   run("out", {"--dump", "levels,normals,masks", "--frames", "1"});
   EXPECT_EQ(files("out"), (std::set<std::string>{"000000_level0.tiff", "000000_level1.tiff",
                                                  "000000_level2.tiff", "000000_normals.tiff",
@@ -117,7 +117,7 @@ TEST_F(RunTest, DumpsWhatIsAskedFor) {
   EXPECT_EQ(cv::imread(in("out/000000_level2.tiff"), cv::IMREAD_UNCHANGED).size(), cv::Size(40, 30));
   const cv::Mat masks = cv::imread(in("out/000000_masks.png"), cv::IMREAD_UNCHANGED);
   EXPECT_EQ(masks.type(), CV_16UC1);
-  // imread turns the file's x, y, z round; a normal of the table's top faces up, against the image's y axis.
+  // imread reverses the file's x, y, z; a normal of the table's top faces up, against the image's y axis.
   const cv::Mat normals = cv::imread(in("out/000000_normals.tiff"), cv::IMREAD_UNCHANGED);
   ASSERT_EQ(normals.type(), CV_32FC3);
   const auto z_y_x = normals.at<cv::Vec3f>(118, 80);
@@ -141,7 +141,7 @@ TEST_F(RunTest, StartEveryAndFramesKeepTheSourcesIndices) {
   EXPECT_TRUE(fs::exists(folder_ / "out/000003_saliency.tiff"));
 }
 
-TEST_F(RunTest, JsonIsAllThatIsOnStandardOutput) {
+TEST_F(RunTest, StandardOutputHasOnlyTheJson) {
   const ProgramResult outcome = run("out", {"--json", "--frames", "2"});
   const json summary = json::parse(outcome.out);
   EXPECT_EQ(summary["ledger"]["processed"], 2);
@@ -149,7 +149,7 @@ TEST_F(RunTest, JsonIsAllThatIsOnStandardOutput) {
   EXPECT_EQ(run("out", {"--quiet", "--frames", "1"}).out, "");
 }
 
-TEST_F(RunTest, ConfigFileIsReadAndTheCommandLineComesOverIt) {
+TEST_F(RunTest, TheCommandLineOverridesTheConfigFile) {
   write_file(folder_ / "c.toml", std::string_view("kernel = 9\nfixations = 3\ndump = \"none\"\n"));
   run("out", {"--config", in("c.toml"), "--fixations", "2", "--frames", "1"});
   const json manifest = json::parse(text("out/manifest.json"));
@@ -182,7 +182,7 @@ TEST_F(RunTest, UnusableFramesAreRejectedAndTheRestIsProcessed) {
   EXPECT_TRUE(fs::exists(folder_ / "out/000003_saliency.tiff"));
 }
 
-TEST_F(RunTest, DefaultLevelsAreCutToWhatTheImageHasRoomFor) {
+TEST_F(RunTest, DefaultLevelsAreCutToThoseTheImageHasRoomFor) {
   const ProgramResult outcome =
       run_saccade({"run", "synthetic:table?frames=1&size=40x30", "--out", in("out")});
   EXPECT_EQ(outcome.status, 0) << outcome.err;
@@ -201,9 +201,9 @@ TEST_F(RunTest, DepthWithoutAnyReadingGivesAZeroMapAndNoFixations) {
   }
 }
 
-// The whole chain as ./run shows it: recording, operator, attention; each of the first points is on another
-// object.
-TEST_F(RunTest, TheBundledRecordingsObjectsAreFoundOneByOne) {
+// The whole chain as ./run shows it: recording, operator, attention; the first points are on different
+// objects.
+TEST_F(RunTest, TheObjectsOfTheBundledRecordingAreFoundOneByOne) {
   const std::string recordings = SACCADE_SOURCE_DIR "/recordings/";
   const ProgramResult outcome =
       run_saccade({"run", recordings + "table.oni", "--out", in("out"), "--dump", "none"});
@@ -228,7 +228,7 @@ TEST_F(RunTest, TheBundledRecordingsObjectsAreFoundOneByOne) {
   EXPECT_GE(hits / possible, 0.9);
 }
 
-TEST_F(RunTest, BenchTellsWhatThisMachineSustains) {
+TEST_F(RunTest, BenchReportsTheModesThatThisMachineSustains) {
   const ProgramResult outcome =
       run_saccade({"bench", "--json", "--seconds", "0", "--kernel", "5", "--levels", "0..1"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
@@ -242,7 +242,7 @@ TEST_F(RunTest, BenchTellsWhatThisMachineSustains) {
   EXPECT_GT(report["sizes"][1]["reference_ratio"], 1);
 }
 
-TEST_F(RunTest, InterruptingLeavesWholeFilesAndSaysSo) {
+TEST_F(RunTest, InterruptingLeavesCompleteFilesAndIsReported) {
   const ProgramResult outcome =
       run_saccade({"run", "synthetic:table?noise=kinect&frames=100000", "--out", in("out")}, 150,
                   folder_ / "out/000000_overlay.png");

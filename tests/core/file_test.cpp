@@ -20,7 +20,7 @@ std::string content(const fs::path& path) {
   return {bytes.begin(), bytes.end()};
 }
 
-TEST_F(FileTest, WritesWholeFilesAndLeavesNoTemporary) {
+TEST_F(FileTest, ReplacesFilesAndLeavesNoTemporaryFile) {
   write_file(folder_ / "a", std::string_view("one"));
   write_file(folder_ / "a", std::string_view("two"));
   EXPECT_EQ(content(folder_ / "a"), "two");
@@ -41,7 +41,7 @@ TEST_F(FileTest, FullDiskIsAnErrorThatNamesTheFile) {
   EXPECT_THROW(lines.append("x"), Error);
 }
 
-TEST_F(FileTest, LinesAreThereAsSoonAsTheyAreAppended) {
+TEST_F(FileTest, AppendedLinesCanBeReadAtOnce) {
   LineFile lines(folder_ / "l");
   lines.append("one");
   EXPECT_EQ(content(folder_ / "l"), "one\n");
@@ -49,7 +49,7 @@ TEST_F(FileTest, LinesAreThereAsSoonAsTheyAreAppended) {
   EXPECT_EQ(content(folder_ / "l"), "one\ntwo\n");
 }
 
-TEST_F(FileTest, LinesAreAppendedToWhatIsKept) {
+TEST_F(FileTest, LinesAreAppendedToAKeptFile) {
   LineFile(folder_ / "l").append("one");
   LineFile(folder_ / "l", LineFile::Existing::keep).append("two");
   EXPECT_EQ(content(folder_ / "l"), "one\ntwo\n");

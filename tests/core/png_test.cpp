@@ -20,7 +20,7 @@ bool same(const cv::Mat& a, const cv::Mat& b) {
   return a.size() == b.size() && a.type() == b.type() && cv::norm(a, b, cv::NORM_INF) == 0;
 }
 
-TEST(Png, RoundTripIsExactAndOthersReadOurFiles) {
+TEST(Png, RoundTripIsExactAlsoWithOpenCvAsTheReader) {
   for (const cv::Mat& image :
        {cv::Mat(noise<cv::Mat1b>({37, 21})), cv::Mat(noise<cv::Mat1w>({37, 21})),
         cv::Mat(noise<cv::Mat3b>({37, 21})), cv::Mat(noise<cv::Mat1w>({40, 30})(cv::Rect(3, 4, 20, 11)))}) {
@@ -31,7 +31,7 @@ TEST(Png, RoundTripIsExactAndOthersReadOurFiles) {
   }
 }
 
-TEST(Png, FilesOfOthersAreRead) {
+TEST(Png, ReadsFilesOfOpenCv) {
   for (const cv::Mat& image : {cv::Mat(noise<cv::Mat1b>({33, 9})), cv::Mat(noise<cv::Mat1w>({33, 9})),
                                cv::Mat(noise<cv::Mat3b>({33, 9}))}) {
     std::vector<std::uint8_t> png;

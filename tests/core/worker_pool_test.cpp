@@ -29,7 +29,7 @@ TEST_P(WorkerPoolOf, NoChunksIsNoWork) {
   pool.for_each(0, [](int, int) { FAIL(); });
 }
 
-TEST_P(WorkerPoolOf, RethrowsAndWorksOn) {
+TEST_P(WorkerPoolOf, RethrowsAndCanBeUsedAgain) {
   WorkerPool pool(GetParam());
   EXPECT_THROW(pool.for_each(50,
                              [](int chunk, int) {
@@ -41,7 +41,7 @@ TEST_P(WorkerPoolOf, RethrowsAndWorksOn) {
   EXPECT_EQ(count, 50);
 }
 
-TEST_P(WorkerPoolOf, GivesUpWhenInterruptedAndWorksOn) {
+TEST_P(WorkerPoolOf, StopsWhenInterruptedAndCanBeUsedAgain) {
   WorkerPool pool(GetParam());
   std::atomic<int> count = 0;
   EXPECT_THROW(pool.for_each(1000,
@@ -50,7 +50,7 @@ TEST_P(WorkerPoolOf, GivesUpWhenInterruptedAndWorksOn) {
                              }),
                WorkerPool::Interrupted);
   EXPECT_GE(count, 20);
-  EXPECT_LT(count, 20 + GetParam()) << "what was begun is ended, and nothing else is begun";
+  EXPECT_LT(count, 20 + GetParam()) << "chunks in progress are finished, and no others are begun";
   EXPECT_THROW(pool.for_each(1, [&](int, int) { FAIL(); }), WorkerPool::Interrupted);
   pool.resume();
   count = 0;

@@ -114,7 +114,7 @@ TEST_F(EvalTest, GoesOnAfterACut) {
              all[0] + "\n" + all[1] + "\n" + all[2] + "\n" + all[3].substr(0, all[3].size() / 2));
   const ProgramResult outcome = eval("cut");
   EXPECT_EQ(outcome.status, 0) << outcome.err;
-  EXPECT_THAT(outcome.err, HasSubstr("2 images are there already"));
+  EXPECT_THAT(outcome.err, HasSubstr("2 images are evaluated already"));
   EXPECT_EQ(lines("cut/results.jsonl")[2], all[2]) << "not evaluated again";
   expect_same("whole", "cut");
 }

@@ -5,7 +5,7 @@
 namespace saccade {
 namespace {
 
-// Lightness as people see it, roughly.
+// Approximate perceived lightness.
 double luma(const cv::Vec3b& bgr) { return 0.114 * bgr[0] + 0.587 * bgr[1] + 0.299 * bgr[2]; }
 
 TEST(Palette, NamesGoBothWays) {
@@ -13,8 +13,8 @@ TEST(Palette, NamesGoBothWays) {
   EXPECT_FALSE(palette_named("jet"));
 }
 
-TEST(Palette, ViridisInfernoAndGrayGrowInLightness) {
-  for (const Palette palette : {Palette::viridis, Palette::inferno, Palette::gray}) {
+TEST(Palette, ViridisInfernoAndGreyGrowInLightness) {
+  for (const Palette palette : {Palette::viridis, Palette::inferno, Palette::grey}) {
     const PaletteColours& colours = colours_of(palette);
     for (std::size_t i = 8; i < colours.size(); ++i)
       EXPECT_GT(luma(colours[i]), luma(colours[i - 8])) << to_string(palette) << " at " << i;
@@ -28,7 +28,7 @@ TEST(Palette, TurboGoesFromBlueOverGreenToRed) {
   EXPECT_GT(colours[230][2], colours[230][0]);
 }
 
-TEST(PercentileRange, LeavesOutTheEndsAndWhatIsNotAboveZero) {
+TEST(PercentileRange, LeavesOutTheEndsAndValuesNotAboveZero) {
   cv::Mat1f image(100, 700, 0.0F);
   for (int r = 0; r < 100; ++r) image.row(r) = static_cast<float>(r);
   image(50, 1) = -5;
@@ -37,12 +37,12 @@ TEST(PercentileRange, LeavesOutTheEndsAndWhatIsNotAboveZero) {
   EXPECT_FALSE(percentile_range(cv::Mat1f(8, 8, 0.0F), 100));
 }
 
-TEST(ColourMap, GrayIsTheRootOfTheShareOfTheLargestValue) {
-  const cv::Mat1b gray = to_gray((cv::Mat1f(1, 3) << 0, 0.5, 2));
-  EXPECT_EQ(gray(0), 0);
-  EXPECT_EQ(gray(1), 128);
-  EXPECT_EQ(gray(2), 255);
-  EXPECT_EQ(cv::countNonZero(to_gray(cv::Mat1f(4, 4, 0.0F))), 0);
+TEST(ColourMap, GreyIsTheRootOfTheShareOfTheLargestValue) {
+  const cv::Mat1b grey = to_grey((cv::Mat1f(1, 3) << 0, 0.5, 2));
+  EXPECT_EQ(grey(0), 0);
+  EXPECT_EQ(grey(1), 128);
+  EXPECT_EQ(grey(2), 255);
+  EXPECT_EQ(cv::countNonZero(to_grey(cv::Mat1f(4, 4, 0.0F))), 0);
 }
 
 TEST(ColourMap, NearDepthIsBrighterAndNoReadingIsBlack) {
@@ -56,7 +56,7 @@ TEST(ColourMap, NearDepthIsBrighterAndNoReadingIsBlack) {
   EXPECT_EQ(cv::norm(depth_picture(cv::Mat1f(8, 8, 0.0F))), 0);
 }
 
-TEST(ColourMap, ALockedRangeDoesNotFollowTheImage) {
+TEST(ColourMap, AFixedRangeDoesNotFollowTheImage) {
   cv::Mat1f depth(20, 20, 1000.0F);
   const DepthStyle style{.palette = Palette::viridis, .range_mm = ValueRange{500, 2500}};
   const cv::Vec3b before = depth_picture(depth, style)(5, 5);

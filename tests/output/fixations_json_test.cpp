@@ -6,7 +6,7 @@
 namespace saccade {
 namespace {
 
-TEST(FixationsJson, HoldsExactlyWhatTheSpecificationNames) {
+TEST(FixationsJson, HasExactlyTheDocumentedFields) {
   Result result;
   result.frame.index = 7;
   result.frame.timestamp_us = 233333;

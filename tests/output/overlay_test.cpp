@@ -23,13 +23,13 @@ class OverlayTest : public ::testing::Test {
   cv::Mat1f saliency_ = cv::Mat1f(120, 160, 0.0F);
 };
 
-TEST_F(OverlayTest, LeavesWhatIsNotSalientAsItWas) {
+TEST_F(OverlayTest, LeavesPixelsThatAreNotSalientAsTheyWere) {
   const cv::Mat3b picture = draw_overlay(frame_, saliency_, attention_);
   EXPECT_EQ(picture(100, 10), cv::Vec3b(40, 50, 60));
   EXPECT_EQ(frame_.colour(60, 80), cv::Vec3b(40, 50, 60)) << "the frame itself is not drawn on";
 }
 
-// Every object alone in a mask of the whole picture, closed and followed.
+// Each object in its own mask of the whole picture, closed and traced.
 std::vector<Outline> slow_outlines(const Attention& attention) {
   std::vector<Outline> outlines;
   const cv::Mat brush = cv::getStructuringElement(cv::MORPH_ELLIPSE, {5, 5});
@@ -44,12 +44,13 @@ std::vector<Outline> slow_outlines(const Attention& attention) {
   return outlines;
 }
 
-TEST_F(OverlayTest, OutlinesAreThoseOfTheWholeMasks) {
+TEST_F(OverlayTest, OutlinesEqualThoseOfTheWholeMasks) {
   cv::RNG random(7);
   for (int round = 0; round < 20; ++round) {
     attention_.fixations.assign(6, attention_.fixations.front());
     attention_.masks.setTo(0);
-    for (int i = 0; i < 40; ++i) {  // objects of parts, some at the rim; rank 6 has none, 7 no fixation
+    for (int i = 0; i < 40;
+         ++i) {  // objects of several parts, some at the border; rank 6 has no pixels, 7 no fixation
       const cv::Rect part(random.uniform(-10, 150), random.uniform(-10, 110), random.uniform(1, 25),
                           random.uniform(1, 25));
       const int rank = random.uniform(0, 7);
@@ -78,7 +79,7 @@ TEST_F(OverlayTest, MarksFixationsOutlinesObjectsAndColoursTheMap) {
   EXPECT_EQ(cv::norm(draw_overlay(frame_, saliency_, attention_, plain), frame_.colour), 0);
 }
 
-// The default overlay as its definition says it, a pixel at a time.
+// The default overlay by its definition, pixel by pixel.
 cv::Mat3b slow_overlay(const cv::Mat3b& background, const cv::Mat1f& saliency, double opacity) {
   cv::Mat1f smooth;
   cv::GaussianBlur(saliency, smooth, {}, std::max(1.0, saliency.cols / 200.0));
@@ -100,7 +101,7 @@ cv::Mat3b slow_overlay(const cv::Mat3b& background, const cv::Mat1f& saliency, d
   return picture;
 }
 
-TEST_F(OverlayTest, TheFastBlendIsTheDefinition) {
+TEST_F(OverlayTest, TheFastBlendFollowsTheDefinition) {
   cv::theRNG().state = 7;
   cv::randu(saliency_, 0, 3.7);
   cv::randu(frame_.colour, 0, 256);
@@ -137,10 +138,10 @@ TEST_F(OverlayTest, PaletteBackgroundAndPathAreChoices) {
   saliency_(100, 140) = 2;
   attention_.fixations.push_back({20, 80, 0.5F, {}, {}});
   const cv::Vec3b turbo = draw_overlay(frame_, saliency_, attention_)(100, 140);
-  const cv::Vec3b gray =
-      draw_overlay(frame_, saliency_, attention_, {.map = {.palette = Palette::gray}})(100, 140);
-  EXPECT_NE(turbo, gray);
-  EXPECT_GT(gray[0], 150);
+  const cv::Vec3b grey =
+      draw_overlay(frame_, saliency_, attention_, {.map = {.palette = Palette::grey}})(100, 140);
+  EXPECT_NE(turbo, grey);
+  EXPECT_GT(grey[0], 150);
 
   const OverlayStyle depth{.background = Background::depth, .map = {.opacity = 0}, .path = false};
   const cv::Mat3b picture = draw_overlay(frame_, saliency_, attention_, depth);
@@ -154,7 +155,7 @@ TEST_F(OverlayTest, SizesThatDoNotFitAreRefused) {
   EXPECT_THROW(blend_map(picture, cv::Mat1b(3, 4), {}), std::invalid_argument);
 }
 
-TEST_F(OverlayTest, DepthStandsInForColour) {
+TEST_F(OverlayTest, DepthReplacesMissingColour) {
   frame_.colour.release();
   EXPECT_EQ(draw_overlay(frame_, saliency_, attention_).size(), cv::Size(160, 120));
 }

@@ -1,5 +1,5 @@
-// Once running, a frame costs no memory: every operator new of this program is counted here, and with it each
-// image, because cv::Mat makes the header of its memory by it.
+// A running pipeline allocates no memory for a frame. Every call of operator new in this program is counted
+// here, including those of images, since cv::Mat allocates the header of its pixels by it.
 #include <cstdlib>
 #include <new>
 
@@ -10,7 +10,7 @@ std::atomic<bool> counting = false;
 std::atomic<int> allocations = 0;
 }  // namespace
 
-// Not inlined, or GCC takes free() for a mistake.
+// Not inlined, since GCC would warn of free().
 [[gnu::noinline]] void* operator new(std::size_t size) {
   if (counting) ++allocations;
   if (void* memory = std::malloc(size)) return memory;
@@ -43,7 +43,7 @@ class BoxesSource : public CountingSource {
 
 class PipelineMemory : public ::testing::Test {
  protected:
-  // What `frames` results cost after the first ones.
+  // The number of allocations for `frames` results after the first ones.
   static int cost(Pipeline& pipeline, int frames) {
     for (int i = 0; i < 100; ++i) pipeline.next();
     counting = true;
@@ -68,7 +68,7 @@ TEST_F(PipelineMemory, NothingIsAllocatedPerFrame) {
   }
 }
 
-TEST_F(PipelineMemory, NorByTheOperatorAndTheChoiceOfPoints) {
+TEST_F(PipelineMemory, NothingIsAllocatedByTheOperatorAndTheSelectors) {
   ProcessorOptions processor;
   processor.model.kernel = 5;
   processor.model.last_level = 1;

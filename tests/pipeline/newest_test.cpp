@@ -1,4 +1,4 @@
-// The policy `newest`: what live work needs. Each test that waits does so for an event.
+// FramePolicy::newest, for live sources. Each test that waits does so for an event.
 #include <condition_variable>
 #include <mutex>
 #include <random>
@@ -18,7 +18,7 @@ PipelineOptions newest(int slots = 4) {
   return options;
 }
 
-// Permissions, given by one thread and taken by another.
+// A semaphore: permissions given by one thread and taken by another.
 class Steps {
  public:
   void give(int count = 1) {
@@ -44,7 +44,7 @@ class Steps {
   int left_ = 0;
 };
 
-// Gives a frame for each permission, so that a test says when frames come.
+// Gives a frame for each permission, so that the test decides when frames come.
 class SteppedSource : public CountingSource {
  public:
   explicit SteppedSource(Steps& steps) : CountingSource(1'000'000), steps_(steps) { info_.live = true; }
@@ -57,7 +57,7 @@ class SteppedSource : public CountingSource {
   Steps& steps_;
 };
 
-// Says when it has begun a frame and goes on when told.
+// Reports when it has begun a frame, and continues after a permission.
 class SteppedProcessor : public CopyProcessor {
  public:
   SteppedProcessor(Steps& begun, Steps& go) : begun_(begun), go_(go) {}
@@ -97,7 +97,7 @@ TEST(PipelineNewest, WhileOneFrameIsComputedOnlyTheNewestOfTheOthersIsKept) {
   EXPECT_EQ(pipeline.latency().count(), 2);
 }
 
-TEST(PipelineNewest, CaptureGoesOnWhileTheConsumerHoldsAllItMay) {
+TEST(PipelineNewest, CaptureContinuesWhileTheConsumerHoldsAllItMay) {
   Steps steps;
   Pipeline pipeline(std::make_unique<SteppedSource>(steps), std::make_unique<CopyProcessor>(), newest(4));
   std::vector<ResultHandle> held;
@@ -105,7 +105,7 @@ TEST(PipelineNewest, CaptureGoesOnWhileTheConsumerHoldsAllItMay) {
     steps.give();
     held.push_back(pipeline.next());
   }
-  steps.give(10);  // compute has no slot for a result: it must not take one of these before it has
+  steps.give(10);  // compute has no slot for a result, and must take none of these before it has one
   wait_for_captured(pipeline, 12);
   held.clear();
   const ResultHandle result = pipeline.next();
@@ -156,7 +156,7 @@ TEST(PipelineNewest, RefusesTooFewSlots) {
                std::invalid_argument);
 }
 
-// A live source as they are: frames, nothing in time, bad frames, and at the end of its patience an error.
+// A live source with frames, timeouts, bad frames, and finally an error.
 class MoodySource : public CountingSource {
  public:
   MoodySource(unsigned seed, std::int64_t fails_at) : CountingSource(1'000'000, {}, fails_at), dice_(seed) {
@@ -178,7 +178,7 @@ class MoodySource : public CountingSource {
   std::minstd_rand dice_;
 };
 
-// Runs one pipeline of either policy to an end that `seed` decides; the ledger is right at every moment.
+// Runs a pipeline to an end that depends on `seed`; the ledger must be right at every moment.
 void run_moody(FramePolicy policy, unsigned seed) {
   std::minstd_rand dice(seed);
   const auto chance = [&](unsigned n) { return dice() % n == 0; };
@@ -204,7 +204,7 @@ void run_moody(FramePolicy policy, unsigned seed) {
     while (const ResultHandle result = pipeline.next()) {
       ASSERT_GT(result->frame.index, last);
       last = result->frame.index;
-      ASSERT_EQ(result->maps.master(7, 7), static_cast<float>(last)) << "nobody wrote into it";
+      ASSERT_EQ(result->maps.master(7, 7), static_cast<float>(last)) << "no other frame was written into it";
       ++seen;
     }
   } catch (const Error&) {
@@ -212,7 +212,7 @@ void run_moody(FramePolicy policy, unsigned seed) {
   }
   const Ledger ledger = pipeline.ledger();
   expect_balanced(ledger);
-  EXPECT_EQ(ledger.processed, seen) << "what was computed is handed out";
+  EXPECT_EQ(ledger.processed, seen) << "every computed frame is handed out";
   EXPECT_EQ(ledger.rejected, rejected);
   EXPECT_EQ(pipeline.latency().count(), seen);
   if (policy == FramePolicy::every_frame) {

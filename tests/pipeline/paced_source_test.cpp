@@ -12,7 +12,7 @@ namespace {
 
 using std::chrono::milliseconds;
 
-// Time passes only when somebody waits for it.
+// Time passes only in wait().
 class FakeClock : public PlayClock {
  public:
   Time now() override { return now_; }
@@ -36,7 +36,7 @@ class TimedSource : public CountingSource {
   }
 };
 
-class PlayedSourceTest : public ::testing::Test {
+class PacedSourceTest : public ::testing::Test {
  protected:
   void open(std::int64_t frames, PlayRange range = {}, std::set<std::int64_t> rejected = {}) {
     auto recording = std::make_unique<TimedSource>(frames, std::move(rejected));
@@ -44,7 +44,7 @@ class PlayedSourceTest : public ::testing::Test {
     source_ = std::make_unique<PacedSource>(std::move(recording), playback_, range, clock_);
   }
 
-  // The index of the next frame and when it came; -1 = none came.
+  // The index of the next frame; -1 = none came.
   std::int64_t next(milliseconds timeout = milliseconds(60'000)) {
     return source_->read(frame_, timeout).status == ReadStatus::frame ? frame_.index : -1;
   }
@@ -58,11 +58,11 @@ class PlayedSourceTest : public ::testing::Test {
   const std::shared_ptr<FakeClock> clock_ = std::make_shared<FakeClock>();
   const std::shared_ptr<PlaybackControls> playback_ = std::make_shared<PlaybackControls>();
   std::unique_ptr<PacedSource> source_;
-  TimedSource* recording_ = nullptr;  // what it plays
+  TimedSource* recording_ = nullptr;  // the recording that it plays
   Frame frame_;
 };
 
-TEST_F(PlayedSourceTest, FramesComeWhenTheirTimestampsAreDue) {
+TEST_F(PacedSourceTest, FramesComeWhenTheirTimestampsAreDue) {
   open(10);
   EXPECT_EQ(next(), 0);
   EXPECT_DOUBLE_EQ(clock_->seconds(), 0);
@@ -71,10 +71,10 @@ TEST_F(PlayedSourceTest, FramesComeWhenTheirTimestampsAreDue) {
   EXPECT_EQ(next(4), (Indices{2, 3, 4, 5}));
   EXPECT_NEAR(clock_->seconds(), 0.5, 1e-6);
   EXPECT_EQ(next(), 6);
-  EXPECT_NEAR(clock_->seconds(), 2.5, 1e-6) << "a hole is waited for 2 s at most";
+  EXPECT_NEAR(clock_->seconds(), 2.5, 1e-6) << "a gap lasts 2 s at most";
 }
 
-TEST_F(PlayedSourceTest, SpeedScalesTimeAndNothingWaitsForTheEyeAtFullSpeed) {
+TEST_F(PacedSourceTest, SpeedScalesTimeAndAtFullSpeedOnlyTheConsumerIsWaitedFor) {
   open(6);
   playback_->set_speed(0.1);
   next(2);
@@ -88,12 +88,12 @@ TEST_F(PlayedSourceTest, SpeedScalesTimeAndNothingWaitsForTheEyeAtFullSpeed) {
   playback_->set_speed(0);
   playback_->taken();
   EXPECT_EQ(next(), 4);
-  EXPECT_EQ(next(milliseconds(1000)), -1) << "the frame before has not been taken up";
+  EXPECT_EQ(next(milliseconds(1000)), -1) << "the consumer has not begun with the last frame";
   playback_->taken();
   EXPECT_EQ(next(), 5);
 }
 
-TEST_F(PlayedSourceTest, ReadWaitsNoLongerThanItsTimeout) {
+TEST_F(PacedSourceTest, ReadWaitsNoLongerThanItsTimeout) {
   open(3);
   next();
   EXPECT_EQ(next(milliseconds(30)), -1);
@@ -102,7 +102,7 @@ TEST_F(PlayedSourceTest, ReadWaitsNoLongerThanItsTimeout) {
   EXPECT_NEAR(clock_->seconds(), 0.1, 1e-6);
 }
 
-TEST_F(PlayedSourceTest, PausedItGivesOnlyWhatIsAskedFor) {
+TEST_F(PacedSourceTest, WhilePausedItGivesOnlyRequestedFrames) {
   open(10);
   next(3);
   playback_->pause();
@@ -113,9 +113,9 @@ TEST_F(PlayedSourceTest, PausedItGivesOnlyWhatIsAskedFor) {
   EXPECT_EQ(next(), 2);
   playback_->step(-1);
   playback_->step(-1);
-  EXPECT_EQ(next(), 0) << "two steps before it looked";
+  EXPECT_EQ(next(), 0) << "two steps before the read";
   playback_->step(-1);
-  EXPECT_EQ(next(), 0) << "there is nothing before the first";
+  EXPECT_EQ(next(), 0) << "there is no frame before the first";
   playback_->seek(7);
   EXPECT_EQ(next(), 7);
   EXPECT_EQ(next(), -1);
@@ -123,7 +123,7 @@ TEST_F(PlayedSourceTest, PausedItGivesOnlyWhatIsAskedFor) {
   EXPECT_EQ(next(2), (Indices{8, 9}));
 }
 
-TEST_F(PlayedSourceTest, AStepWhileAnotherIsReadGoesOnFromThere) {
+TEST_F(PacedSourceTest, AStepWhileAnotherIsReadStartsThere) {
   open(10);
   next(6);
   playback_->step(-1);
@@ -133,11 +133,11 @@ TEST_F(PlayedSourceTest, AStepWhileAnotherIsReadGoesOnFromThere) {
   EXPECT_EQ(next(), 4);
 }
 
-TEST_F(PlayedSourceTest, ShowsTheFrameAgainAsItWas) {
+TEST_F(PacedSourceTest, ShowsTheFrameAgainAsItWas) {
   open(10);
   next(3);
   playback_->pause();
-  frame_.depth_mm.setTo(0);  // who reads may do so with the frame
+  frame_.depth_mm.setTo(0);  // as the consumer may do
   playback_->show_again();
   EXPECT_EQ(next(), 2);
   EXPECT_EQ(frame_.depth_mm(0, 0), 2);
@@ -149,10 +149,10 @@ TEST_F(PlayedSourceTest, ShowsTheFrameAgainAsItWas) {
   playback_->show_again();
   EXPECT_EQ(next(), 3);
   EXPECT_EQ(next(), 4);
-  EXPECT_NEAR(clock_->seconds() - before, 0.1, 1e-6) << "what is played goes on in its time";
+  EXPECT_NEAR(clock_->seconds() - before, 0.1, 1e-6) << "playback keeps its time";
 }
 
-TEST_F(PlayedSourceTest, LoopsOrStopsAtTheEnd) {
+TEST_F(PacedSourceTest, LoopsOrPausesAtTheEnd) {
   open(3);
   EXPECT_EQ(next(7), (Indices{0, 1, 2, 0, 1, 2, 0}));
   playback_->set_loop(false);
@@ -164,7 +164,7 @@ TEST_F(PlayedSourceTest, LoopsOrStopsAtTheEnd) {
   EXPECT_FALSE(playback_->state().at_end);
 }
 
-TEST_F(PlayedSourceTest, SeeksWhilePlayingAndGoesOnFromThere) {
+TEST_F(PacedSourceTest, SeeksWhilePlayingAndContinuesThere) {
   open(10);
   next(2);
   playback_->seek(8);
@@ -176,7 +176,7 @@ TEST_F(PlayedSourceTest, SeeksWhilePlayingAndGoesOnFromThere) {
   EXPECT_EQ(next(), 9) << "the last";
 }
 
-TEST_F(PlayedSourceTest, PlaysOnlyItsRange) {
+TEST_F(PacedSourceTest, PlaysOnlyItsRange) {
   open(20, {4, 3, 3});
   EXPECT_EQ(next(5), (Indices{4, 7, 10, 4, 7}));
   playback_->seek(9);
@@ -186,7 +186,7 @@ TEST_F(PlayedSourceTest, PlaysOnlyItsRange) {
   EXPECT_EQ(next(), 4);
 }
 
-TEST_F(PlayedSourceTest, AStepGoesOnOverFramesThatCannotBeUsed) {
+TEST_F(PacedSourceTest, AStepSkipsFramesThatCannotBeUsed) {
   open(6, {}, {2, 3});
   playback_->pause();
   EXPECT_EQ(next(), 0);
@@ -204,14 +204,14 @@ TEST_F(PlayedSourceTest, AStepGoesOnOverFramesThatCannotBeUsed) {
   EXPECT_EQ(next(), 1);
 }
 
-TEST_F(PlayedSourceTest, EndsOnlyIfNoFrameCanBeUsed) {
+TEST_F(PacedSourceTest, EndsOnlyIfNoFrameCanBeUsed) {
   open(2, {}, {0, 1});
   EXPECT_EQ(source_->read(frame_, milliseconds(10)).status, ReadStatus::rejected);
   EXPECT_EQ(source_->read(frame_, milliseconds(10)).status, ReadStatus::rejected);
   EXPECT_EQ(source_->read(frame_, milliseconds(10)).status, ReadStatus::end);
 }
 
-TEST_F(PlayedSourceTest, TheTapSeesEachNewFrameOnce) {
+TEST_F(PacedSourceTest, TheTapGetsEachNewFrameOnce) {
   Indices seen;
   playback_->set_tap([&](const Frame& frame) { seen.push_back(frame.index); });
   open(4);
@@ -223,7 +223,7 @@ TEST_F(PlayedSourceTest, TheTapSeesEachNewFrameOnce) {
   EXPECT_EQ(seen, (Indices{0, 1, 2}));
 }
 
-TEST_F(PlayedSourceTest, ButtonsWakeAReaderThatWaits) {
+TEST_F(PacedSourceTest, TheControlsWakeAWaitingReader) {
   source_ = std::make_unique<PacedSource>(std::make_unique<TimedSource>(10), playback_);
   playback_->pause();
   EXPECT_EQ(next(), 0);

@@ -48,7 +48,7 @@ class CountingSource : public FrameSource {
   std::int64_t fails_at_;
 };
 
-/// Copies the depth to the map, at its own pace.
+/// Copies the depth to the map, after a delay.
 class CopyProcessor : public FrameProcessor {
  public:
   explicit CopyProcessor(std::chrono::microseconds delay = {}, std::int64_t fails_at = -1)
@@ -70,7 +70,7 @@ inline void expect_balanced(const Ledger& ledger) {
   EXPECT_LE(ledger.replaced, ledger.dropped);
 }
 
-/// Looks at the ledger all the time while a pipeline works.
+/// Checks the ledger all the time while a pipeline runs.
 class LedgerWatch {
  public:
   LedgerWatch(const Pipeline& pipeline, int slots)

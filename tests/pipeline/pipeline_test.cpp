@@ -13,7 +13,7 @@ namespace {
 
 using std::chrono::milliseconds;
 
-// A live source that gives one frame and then nothing, ever.
+// A live source that gives one frame and then no more.
 class SilentSource : public CountingSource {
  public:
   SilentSource() : CountingSource(1) {}
@@ -40,7 +40,7 @@ TEST(Pipeline, GivesEveryFrameInOrder) {
   ASSERT_EQ(seen.size(), 500U);
   for (std::size_t i = 0; i < seen.size(); ++i) EXPECT_EQ(seen[i], static_cast<std::int64_t>(i));
   EXPECT_EQ(pipeline.ledger(), (Ledger{500, 500, 0, 0}));
-  EXPECT_FALSE(pipeline.next()) << "the end stays the end";
+  EXPECT_FALSE(pipeline.next()) << "it stays at the end";
 }
 
 TEST(Pipeline, TakesStartEveryAndLimit) {
@@ -50,7 +50,7 @@ TEST(Pipeline, TakesStartEveryAndLimit) {
   EXPECT_EQ(indices(pipeline), (std::vector<std::int64_t>{5, 15, 25, 35}));
 }
 
-TEST(Pipeline, RejectedFramesAreCountedNamedAndPassedOver) {
+TEST(Pipeline, RejectedFramesAreCountedReportedAndSkipped) {
   PipelineOptions options;
   std::vector<std::int64_t> rejected;
   options.on_rejected = [&](std::int64_t index, const std::string& reason) {
@@ -77,9 +77,9 @@ TEST(Pipeline, BackPressureHoldsCaptureWhileTheConsumerHoldsResults) {
   EXPECT_EQ(indices(pipeline).size(), 97U);
 }
 
-TEST(Pipeline, HandlesMayBeGivenBackOnAnyThread) {
+TEST(Pipeline, HandlesMayBeReturnedOnAnyThread) {
   Pipeline pipeline(std::make_unique<CountingSource>(300), std::make_unique<CopyProcessor>(), {});
-  std::vector<std::jthread> givers;  // join before the pipeline goes
+  std::vector<std::jthread> givers;  // join before the pipeline is destroyed
   std::int64_t expected = 0;
   while (ResultHandle result = pipeline.next()) {
     EXPECT_EQ(result->frame.index, expected++);
@@ -95,7 +95,7 @@ TEST(Pipeline, ErrorsOfEitherThreadComeAfterTheResultsBeforeThem) {
     std::int64_t seen = 0;
     try {
       while (const ResultHandle result = pipeline.next()) EXPECT_EQ(result->frame.index, seen++);
-      ADD_FAILURE() << "no error came";
+      ADD_FAILURE() << "no error was thrown";
     } catch (const Error& error) {
       EXPECT_NE(std::string(error.what()).find(source_fails ? "source failed" : "processor failed"),
                 std::string::npos);
@@ -119,7 +119,7 @@ TEST(Pipeline, StopAtAnyMomentEndsWithABalancedLedger) {
     });
     const auto seen = static_cast<std::int64_t>(indices(pipeline).size());
     expect_balanced(pipeline.ledger());
-    EXPECT_EQ(pipeline.ledger().processed, seen) << "what was computed is handed out";
+    EXPECT_EQ(pipeline.ledger().processed, seen) << "every computed frame is handed out";
   }
 }
 

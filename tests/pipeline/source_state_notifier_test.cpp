@@ -28,10 +28,10 @@ class MutableSource : public CountingSource {
   mutable int looks = 0;
 };
 
-class StateWatchTest : public ::testing::Test {
+class SourceStateNotifierTest : public ::testing::Test {
  protected:
   void watch() {
-    watch_.emplace(source_, [this](const SourceState& state) { told_.push_back(state); });
+    notifier_.emplace(source_, [this](const SourceState& state) { reported_.push_back(state); });
     source_.looks = 0;
   }
   void becomes(Connection connection, std::vector<std::string> notes) {
@@ -40,51 +40,51 @@ class StateWatchTest : public ::testing::Test {
   }
 
   MutableSource source_;
-  std::vector<SourceState> told_;
-  std::optional<SourceStateNotifier> watch_;
+  std::vector<SourceState> reported_;
+  std::optional<SourceStateNotifier> notifier_;
 };
 
-TEST_F(StateWatchTest, FramesInTimeCostNothing) {
+TEST_F(SourceStateNotifierTest, FramesInTimeCostNothing) {
   watch();
-  for (int i = 0; i < 5; ++i) watch_->after_read(ReadStatus::frame);
+  for (int i = 0; i < 5; ++i) notifier_->after_read(ReadStatus::frame);
   EXPECT_EQ(source_.looks, 0);
-  EXPECT_THAT(told_, IsEmpty());
+  EXPECT_THAT(reported_, IsEmpty());
 }
 
-TEST_F(StateWatchTest, ALossAndTheReturnAreToldOnceEach) {
+TEST_F(SourceStateNotifierTest, ALossAndAReconnectionAreReportedOnceEach) {
   becomes(Connection::streaming, {"opened so"});
   watch();
   becomes(Connection::lost, {"opened so"});
-  for (int i = 0; i < 3; ++i) watch_->after_read(ReadStatus::timeout);
+  for (int i = 0; i < 3; ++i) notifier_->after_read(ReadStatus::timeout);
   becomes(Connection::streaming, {"opened so"});
-  for (int i = 0; i < 3; ++i) watch_->after_read(ReadStatus::frame);
-  ASSERT_EQ(told_.size(), 2U);
-  EXPECT_EQ(told_[0].connection, Connection::lost);
-  EXPECT_EQ(told_[1].connection, Connection::streaming);
-  EXPECT_THAT(told_[1].notes, IsEmpty()) << "they are those of the opening";
+  for (int i = 0; i < 3; ++i) notifier_->after_read(ReadStatus::frame);
+  ASSERT_EQ(reported_.size(), 2U);
+  EXPECT_EQ(reported_[0].connection, Connection::lost);
+  EXPECT_EQ(reported_[1].connection, Connection::streaming);
+  EXPECT_THAT(reported_[1].notes, IsEmpty()) << "they are those of the opening";
 }
 
-TEST_F(StateWatchTest, WhatTheDeviceThatComesBackDoesOtherwiseIsTold) {
+TEST_F(SourceStateNotifierTest, SettingsThatAReconnectedDeviceIgnoresAreReported) {
   watch();
   for (int round = 0; round < 2; ++round) {
     becomes(Connection::lost, {"opened so"});
-    watch_->after_read(ReadStatus::timeout);
+    notifier_->after_read(ReadStatus::timeout);
     becomes(Connection::streaming, {"no mirror"});
-    watch_->after_read(ReadStatus::frame);
+    notifier_->after_read(ReadStatus::frame);
   }
-  ASSERT_EQ(told_.size(), 4U);
-  EXPECT_THAT(told_[0].notes, IsEmpty()) << "a device that is away does nothing";
-  EXPECT_THAT(told_[1].notes, ElementsAre("no mirror"));
-  EXPECT_THAT(told_[3].notes, IsEmpty()) << "it was told";
+  ASSERT_EQ(reported_.size(), 4U);
+  EXPECT_THAT(reported_[0].notes, IsEmpty()) << "a lost device has no notes";
+  EXPECT_THAT(reported_[1].notes, ElementsAre("no mirror"));
+  EXPECT_THAT(reported_[3].notes, IsEmpty()) << "they were reported before";
 }
 
-TEST_F(StateWatchTest, ADeviceThatComesWithinTheFirstReadIsSeen) {
+TEST_F(SourceStateNotifierTest, ADeviceThatComesDuringTheFirstReadIsReported) {
   becomes(Connection::waiting, {});
   watch();
   becomes(Connection::streaming, {"no mirror"});
-  watch_->after_read(ReadStatus::frame);
-  ASSERT_EQ(told_.size(), 1U);
-  EXPECT_THAT(told_[0].notes, ElementsAre("no mirror"));
+  notifier_->after_read(ReadStatus::frame);
+  ASSERT_EQ(reported_.size(), 1U);
+  EXPECT_THAT(reported_[0].notes, ElementsAre("no mirror"));
 }
 
 }  // namespace

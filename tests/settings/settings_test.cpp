@@ -48,7 +48,7 @@ TEST(Settings, PrintAndParseAreInverse) {
   }
 }
 
-TEST(Settings, StandScopeByScopeWithTheirNames) {
+TEST(Settings, AreListedScopeByScope) {
   SettingScope last = SettingScope::model;
   std::set<std::string_view> keys;
   for (const SettingSpec& spec : setting_specs()) {
@@ -110,7 +110,7 @@ TEST(Settings, UnknownKeyNamesTheNearest) {
   EXPECT_THAT(error_of([&] { apply_setting(s, "kernal", "15"); }), HasSubstr("did you mean kernel?"));
 }
 
-TEST(Settings, TomlFileIsReadOverTheDefaults) {
+TEST(Settings, TomlFileOverridesTheDefaults) {
   Settings s;
   EXPECT_EQ(load(s,
                  "kernel = 21\nlevels = \"0..2\"\nlength-scale = 'millimetre'\ndump = [\"maps\", \"masks\"]\n"
@@ -140,14 +140,14 @@ TEST(Settings, DefaultTomlListsEveryKeyWithItsDefault) {
   for (const SettingSpec& spec : setting_specs())
     EXPECT_THAT(text, HasSubstr("\n" + std::string(spec.key) + " = ")) << "not documented";
   Settings loaded;
-  for (const SettingSpec& spec : setting_specs())  // start from something else, so that a missing line shows
+  for (const SettingSpec& spec : setting_specs())  // start from another value, to detect a missing line
     if (spec.key == "kernel") spec.parse(loaded, "99");
   load_settings(loaded, config_file("default.toml"));
   for (const SettingSpec& spec : setting_specs())
     EXPECT_EQ(spec.print(loaded), spec.print(Settings{})) << spec.key;
 }
 
-TEST(Settings, PaperTomlIsThePapersSetUp) {
+TEST(Settings, PaperTomlHasTheSettingsOfThePaper) {
   Settings s;
   load_settings(s, config_file("paper.toml"));
   EXPECT_EQ(s.kernel, 15);

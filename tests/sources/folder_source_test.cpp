@@ -133,7 +133,7 @@ TEST_F(FolderSourceTest, WrongDepthImagesAreNamedWithWhatIsWrong) {
   std::vector<std::uint8_t> tiff;
   cv::imencode(".tiff", cv::Mat1f(12, 16, 1.0F), tiff);
   write_file(folder_ / "0000_depth.png", tiff);
-  EXPECT_THAT(error(), HasSubstr("not a sound PNG"));
+  EXPECT_THAT(error(), HasSubstr("not a valid PNG"));
 }
 
 TEST_F(FolderSourceTest, AFrameCutShortIsRejectedAndTheNextIsRead) {

@@ -7,8 +7,8 @@
 
 namespace saccade {
 
-/// A test with a folder of its own, empty at its start and removed at its end. Its name holds the suite's and
-/// the test's, so that tests of one program may run at the same time.
+/// A test with its own folder, empty at the start and removed at the end. The folder is named after suite and
+/// test, so that tests of one program may run at the same time.
 class FolderTest : public ::testing::Test {
  protected:
   FolderTest() {

@@ -4,7 +4,7 @@
 
 namespace saccade {
 
-/// For FrameSource::read() of recordings, which never make a reader wait.
+/// For FrameSource::read() of recordings, which never wait.
 inline constexpr std::chrono::milliseconds kNoWait{0};
 
 }  // namespace saccade

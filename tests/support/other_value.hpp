@@ -24,7 +24,7 @@ inline std::string other_value(const SettingSpec& spec) {
   throw std::logic_error("no other value is known of " + std::string(spec.key));
 }
 
-/// The default settings but for one.
+/// The default settings except for this one.
 inline Settings changed(const SettingSpec& spec) {
   Settings settings;
   spec.parse(settings, other_value(spec));

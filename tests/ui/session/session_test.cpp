@@ -188,7 +188,7 @@ TEST_F(SessionTest, AStartBehindTheEndIsToldAsSuch) {
   const auto session = make();
   session->open({.uri = "ball", .range = {.start = 30}});
   ASSERT_TRUE(wait_for([&] { return session->state().phase == Phase::ended; }));
-  EXPECT_THAT(session->state().error, HasSubstr("--start 30 is behind the last frame"));
+  EXPECT_THAT(session->state().error, HasSubstr("--start 30 is past the last frame"));
 }
 
 TEST_F(SessionTest, AnotherCameraHoldsForTheFrameThatIsShown) {

@@ -1,9 +1,13 @@
-#include "app/manifest.hpp"
+#include "app/run_report.hpp"
 
+#include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
 #include <nlohmann/json.hpp>
 
+#include "app/progress.hpp"
 #include "core/version.hpp"
 
 namespace saccade {
@@ -28,12 +32,12 @@ Json intrinsics_json(const Intrinsics& camera) {
           {"from", to_string(camera.origin)}};
 }
 
-// The keys of a TOML file, so that these are the parameters to use again.
+// With the keys of a TOML file, so that the run can be repeated.
 Json settings_json(const Settings& settings) {
   Json json = Json::object();
   for (const SettingSpec& spec : setting_specs()) {
     const std::string text = spec.print(settings);
-    Json value = Json::parse(text, nullptr, false);  // numbers and truth values as such
+    Json value = Json::parse(text, nullptr, false);  // numbers, true and false are no strings
     json[std::string(spec.key)] = value.is_number() || value.is_boolean() ? value : Json(text);
   }
   return json;
@@ -103,6 +107,24 @@ Json manifest_json(const RunReport& report) {
     rejected.push_back({{"frame", index}, {"reason", reason}});
   json["rejected"] = rejected;
   return json;
+}
+
+std::string summary_text(const RunReport& report) {
+  const Ledger& ledger = report.ledger;
+  return fmt::format("{} frame{} in {:.2f} s ({:.1f}/s){}{}{}; see {}", ledger.processed,
+                     ledger.processed == 1 ? "" : "s", report.wall_s,
+                     static_cast<double>(ledger.processed) / std::max(report.wall_s, 1e-9),
+                     report.source.live ? ", " + live_text(ledger, report.latency) : "",
+                     ledger.rejected > 0 ? fmt::format(", {} rejected", ledger.rejected) : "",
+                     report.status == "interrupted" ? ", interrupted" : "", report.out);
+}
+
+void report_rejected(const RunReport& report) {
+  if (report.rejected.empty()) return;
+  const auto& [index, reason] = report.rejected.front();
+  spdlog::warn("{}: {} frame{} rejected (manifest.json lists them), the first, frame {}: {}",
+               report.source.uri, report.ledger.rejected, report.ledger.rejected == 1 ? "" : "s", index,
+               reason);
 }
 
 }  // namespace saccade

@@ -15,19 +15,19 @@
 
 namespace saccade {
 
-/// What a run was and what became of it; manifest.json and the summary of --json.
+/// What a run did, for manifest.json and the summaries.
 struct RunReport {
   std::string status = "running";  ///< running, done, interrupted or failed
   std::string error;               ///< the line that was printed, if it failed
   std::vector<std::string> command_line;
   SourceInfo source;
   Settings settings;
-  int workers = 0;  ///< as resolved
+  int workers = 0;  ///< worker_count(settings)
   Ledger ledger;
   std::vector<std::pair<std::int64_t, std::string>> rejected;  ///< source index and reason; the first 10000
   StageStatistics stages;
   DurationHistogram latency;          ///< from the capture of a frame to its result
-  std::optional<SourceState> device;  ///< how a live source was doing at the end
+  std::optional<SourceState> device;  ///< state of a live source at the end
   double wall_s = 0;
   std::string out;
 };
@@ -35,10 +35,16 @@ struct RunReport {
 /// The whole report: manifest.json.
 nlohmann::ordered_json manifest_json(const RunReport& report);
 
-/// How a live source's device did, in either.
+/// Its part about a live source.
 nlohmann::ordered_json device_json(const SourceState& device);
 
-/// Its short form: what --json prints.
+/// The short form of the report that --json prints.
 nlohmann::ordered_json summary_json(const RunReport& report);
+
+/// One line, e.g. "90 frames in 2.41 s (37.3/s); see out/table".
+std::string summary_text(const RunReport& report);
+
+/// Warns of rejected frames, if there are any.
+void report_rejected(const RunReport& report);
 
 }  // namespace saccade

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "settings/settings.hpp"
+
+namespace saccade {
+
+struct EvalArguments {
+  std::string dataset;                     ///< as open_source() takes it; its frames need labels
+  std::string out;                         ///< folder, made if it does not exist
+  std::string models, kernels, selectors;  ///< lists "a,b"; empty = the one of the settings
+  int points = 30;                         ///< n goes from 1 to this, 1..1000
+  std::string shard = "1/1";
+  std::vector<std::string> merge;  ///< folders of shards; then there is no data set
+};
+
+/// `saccade eval`: the Hit Ratio of every model, kernel and selector on a labelled data set. Each image's
+/// result is appended to OUT/results.jsonl as soon as it is known, so that the same command continues an
+/// interrupted evaluation; then hr.csv, report.json, hr.svg, hr.png, index.html and examples/ are written
+/// into OUT. Throws Error, also if it was interrupted.
+void eval(const EvalArguments& arguments, const Settings& settings);
+
+/// `saccade eval --merge`: the same files from the results of all shards.
+void eval_merge(const EvalArguments& arguments, const Settings& settings);
+
+}  // namespace saccade

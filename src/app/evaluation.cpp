@@ -1,0 +1,71 @@
+#include "app/evaluation.hpp"
+
+#include <chrono>
+#include <set>
+#include <utility>
+
+#include <spdlog/spdlog.h>
+
+namespace saccade {
+namespace {
+
+void warn_left_out(const ImageResult& image) {
+  if (!image.left_out.empty())
+    spdlog::warn("frame {}{} left out: {}", image.frame, image.name.empty() ? "" : " (" + image.name + ")",
+                 image.left_out);
+}
+
+}  // namespace
+
+Evaluation::Evaluation(const EvalPlan& plan, FrameSource& source, WorkerPool& pool)
+    : plan_(plan), source_(source), pool_(pool), frames_(static_cast<std::size_t>(pool.workers())) {
+  for (int i = 0; i < pool.workers(); ++i) {
+    lane_pools_.push_back(std::make_unique<WorkerPool>(1));
+    lanes_.push_back(std::make_unique<Evaluator>(plan, *lane_pools_.back()));
+  }
+}
+
+bool Evaluation::run(StoredResults& results, LineFile& file, Progress& progress, const Interrupt& interrupt) {
+  std::set<std::int64_t> known;
+  for (const ImageResult& image : results.images) known.insert(image.frame);
+  std::int64_t done = 0;
+  for (std::int64_t position = plan_.shard - 1; position < plan_.positions;) {
+    if (interrupt.happened()) return false;
+    Batch batch;
+    for (; position < plan_.positions && batch.readable.size() < lanes_.size(); position += plan_.shards)
+      if (!known.contains(plan_.frame_at(position))) read(plan_.frame_at(position), batch);
+    evaluate(batch);
+    for (ImageResult& image : batch.images) {
+      warn_left_out(image);
+      file.append(image_line(image));
+      results.images.push_back(std::move(image));
+      progress.update(++done);
+    }
+  }
+  return true;
+}
+
+// Adds the frame to the batch; if it cannot be used, its result says why.
+void Evaluation::read(std::int64_t index, Batch& batch) {
+  Frame& frame = frames_[batch.readable.size()];
+  ImageResult& result = batch.images.emplace_back();
+  result.frame = index;
+  source_.seek(index);
+  const ReadResult read = source_.read(frame, std::chrono::seconds(1));
+  if (plan_.settings.intrinsics) frame.intrinsics = *plan_.settings.intrinsics;
+  if (read.status == ReadStatus::frame) {
+    batch.readable.push_back(batch.images.size() - 1);
+    return;
+  }
+  result.name = read.status == ReadStatus::rejected ? frame.name : "";
+  result.left_out = read.reason.empty() ? "the data set ends before it" : read.reason;
+}
+
+void Evaluation::evaluate(Batch& batch) {
+  pool_.for_each(static_cast<int>(batch.readable.size()), [&](int k, int lane) {
+    const auto i = static_cast<std::size_t>(k);
+    batch.images[batch.readable[i]] = lanes_[static_cast<std::size_t>(lane)]->evaluate(frames_[i]);
+  });
+}
+
+}  // namespace saccade

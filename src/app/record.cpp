@@ -1,0 +1,165 @@
+#include "app/record.hpp"
+
+#include <chrono>
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+#include <nlohmann/json.hpp>
+#include <opencv2/core.hpp>
+
+#include "app/command.hpp"
+#include "app/interrupt.hpp"
+#include "app/progress.hpp"
+#include "app/record_report.hpp"
+#include "core/file.hpp"
+#include "oni/recorder.hpp"
+#include "pipeline/source_state_notifier.hpp"
+#include "sources/open_source.hpp"
+
+namespace saccade {
+namespace fs = std::filesystem;
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr std::size_t kQueueFrames = 30;  // a second of a camera, for when the disk is busy
+constexpr std::chrono::milliseconds kReadTimeout{500};
+
+double seconds_since(Clock::time_point begin) {
+  return std::chrono::duration<double>(Clock::now() - begin).count();
+}
+
+// What the progress line says besides the number of frames.
+std::string disk_text(const OniRecorder& recorder, const fs::path& file) {
+  const OniWriterCounts counts = recorder.counts();
+  std::error_code code;
+  const auto space = fs::space(file.parent_path() / ".", code);
+  return fmt::format("{}{}, {} dropped{}", megabytes(static_cast<double>(recorder.size_bytes())),
+                     code ? "" : fmt::format(" ({} free)", megabytes(static_cast<double>(space.available))),
+                     counts.dropped,
+                     counts.unsynced > 1 ? fmt::format(", slow disk: {} unsynced", counts.unsynced) : "");
+}
+
+// One `saccade record`, from open source to closed file.
+class RecordRun {
+ public:
+  RecordRun(const RecordArguments& arguments, const Settings& settings)
+      : arguments_(arguments), settings_(settings) {
+    report_.source = arguments.source;
+    report_.file = arguments.file;
+  }
+
+  void execute() {
+    const auto source = open_source(arguments_.source, settings_.sensor);
+    const SourceInfo& info = source->info();
+    for (const std::string& note : info.notes) spdlog::warn("{}: {}", info.uri, note);
+    live_ = info.live;
+    OniWriter writer(arguments_.file, writer_options(info));
+    begin_ = Clock::now();
+    {
+      const Interrupt::Handler handler(interrupt_, [&] { source->interrupt(); });
+      OniRecorder recorder(writer, kQueueFrames);
+      Progress progress(!settings_.quiet, std::nullopt);
+      take_frames(*source, recorder, progress);
+      recorder.finish();
+      report_.counts = recorder.counts();
+      if (live_) report_.device = source->state();
+    }
+    report_.interrupted = interrupt_.happened();
+    report_.bytes = writer.size_bytes();
+    report_.wall_s = seconds_since(begin_);
+    report_losses(report_);
+    print_summary();
+  }
+
+ private:
+  OniWriterOptions writer_options(const SourceInfo& info) const {
+    OniWriterOptions options = arguments_.options;
+    options.rate_hz = info.rate_hz;
+    options.expect_colour = options.expect_colour || info.live;
+    return options;
+  }
+
+  // If the source fails, the file is closed with the frames that came before.
+  void take_frames(FrameSource& source, OniRecorder& recorder, Progress& progress) {
+    try {
+      copy_frames(source, recorder, progress);
+    } catch (...) {
+      const std::exception_ptr error = std::current_exception();
+      progress.clear();
+      try {
+        recorder.finish();
+        const auto frames = recorder.counts().frames;
+        spdlog::warn("{}: closed with the {} frame{} that came before", arguments_.file, frames,
+                     frames == 1 ? "" : "s");
+      } catch (const std::exception& second) {
+        spdlog::debug("{}", second.what());  // the first error is the one that matters
+      }
+      std::rethrow_exception(error);
+    }
+    progress.clear();
+  }
+
+  void copy_frames(FrameSource& source, OniRecorder& recorder, Progress& progress) {
+    SourceStateNotifier notifier(source, [&](const SourceState& state) {
+      progress.clear();
+      report_state(state);
+    });
+    Frame frame;
+    while (!interrupt_.happened() && !reached_limit()) {
+      const ReadResult result = source.read(frame, kReadTimeout);
+      progress.update(static_cast<std::int64_t>(recorder.counts().frames),
+                      [&] { return disk_text(recorder, arguments_.file); });
+      if (result.status == ReadStatus::end) return;
+      notifier.after_read(result.status);
+      if (result.status == ReadStatus::rejected && report_.rejected++ == 0)
+        report_.first_rejected = fmt::format("frame {}: {}", frame.index, result.reason);
+      if (result.status != ReadStatus::frame) continue;
+      if (taken_ == 0) first_us_ = frame.timestamp_us;
+      if (arguments_.duration_s > 0 && recorded_s(frame) >= arguments_.duration_s) return;
+      ++taken_;
+      if (live_)
+        recorder.offer(frame);
+      else
+        recorder.push(frame);
+    }
+  }
+
+  // The duration limits the time on the wall too, since the frames of a live source may stay away.
+  bool reached_limit() const {
+    if (settings_.frames > 0 && taken_ >= settings_.frames) return true;
+    return live_ && arguments_.duration_s > 0 && seconds_since(begin_) >= arguments_.duration_s;
+  }
+
+  double recorded_s(const Frame& frame) const {
+    return static_cast<double>(frame.timestamp_us - first_us_) / 1e6;
+  }
+
+  void print_summary() const {
+    if (settings_.json)
+      fmt::print("{}\n", record_json(report_).dump());
+    else if (!settings_.quiet)
+      fmt::print("{}\n", record_text(report_));
+    std::fflush(stdout);
+  }
+
+  Interrupt interrupt_;  // before any thread is started
+  const RecordArguments& arguments_;
+  const Settings& settings_;
+  RecordReport report_;
+  bool live_ = false;
+  Clock::time_point begin_;
+  std::int64_t taken_ = 0, first_us_ = 0;  // frames given to the recorder; timestamp of the first
+};
+
+}  // namespace
+
+void record(const RecordArguments& arguments, const Settings& settings) {
+  cv::setNumThreads(1);  // OpenCV must not start threads besides ours
+  RecordRun(arguments, settings).execute();
+}
+
+}  // namespace saccade

@@ -1,0 +1,51 @@
+#include "app/record_report.hpp"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+#include <nlohmann/json.hpp>
+
+#include "app/run_report.hpp"
+#include "core/file.hpp"
+
+namespace saccade {
+
+nlohmann::ordered_json record_json(const RecordReport& report) {
+  nlohmann::ordered_json json = {{"status", report.interrupted ? "interrupted" : "done"},
+                                 {"file", report.file},
+                                 {"frames", report.counts.frames},
+                                 {"dropped", report.counts.dropped},
+                                 {"rejected", report.rejected},
+                                 {"rounded", report.counts.rounded},
+                                 {"most_unsynced", report.counts.most_unsynced},
+                                 {"bytes", report.bytes},
+                                 {"wall_s", report.wall_s}};
+  if (report.device) json["device"] = device_json(*report.device);
+  return json;
+}
+
+std::string record_text(const RecordReport& report) {
+  const OniWriterCounts& counts = report.counts;
+  const std::string slow_disk =
+      counts.most_unsynced > 1
+          ? fmt::format(", slow disk: up to {} frames at a time were unsynced", counts.most_unsynced)
+          : "";
+  return fmt::format("{} frame{} in {:.2f} s, {}, {} dropped{}{}{}; see {}", counts.frames,
+                     counts.frames == 1 ? "" : "s", report.wall_s,
+                     megabytes(static_cast<double>(report.bytes)), counts.dropped,
+                     report.rejected > 0 ? fmt::format(", {} rejected", report.rejected) : "", slow_disk,
+                     report.interrupted ? ", interrupted" : "", report.file);
+}
+
+void report_losses(const RecordReport& report) {
+  if (report.rejected > 0)
+    spdlog::warn("{}: {} frame{} rejected, the first, {}", report.source, report.rejected,
+                 report.rejected == 1 ? "" : "s", report.first_rejected);
+  if (report.counts.rounded > 0)
+    spdlog::warn("{}: depth of {} frames was rounded to the unit of the file, by at most {:.3g} mm",
+                 report.file, report.counts.rounded, report.counts.largest_rounding_mm);
+  if (report.counts.out_of_range_pixels > 0)
+    spdlog::warn("{}: {} pixels were too far for the unit of the file and have no reading", report.file,
+                 report.counts.out_of_range_pixels);
+}
+
+}  // namespace saccade

@@ -1,0 +1,200 @@
+#include "app/run.hpp"
+
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+#include <nlohmann/json.hpp>
+#include <opencv2/core.hpp>
+
+#include "app/command.hpp"
+#include "app/interrupt.hpp"
+#include "app/progress.hpp"
+#include "app/run_report.hpp"
+#include "core/error.hpp"
+#include "core/file.hpp"
+#include "models/model.hpp"
+#include "output/fixations_json.hpp"
+#include "output/frame_writer.hpp"
+#include "output/writer_pool.hpp"
+#include "pipeline/pipeline.hpp"
+#include "sources/open_source.hpp"
+
+namespace saccade {
+namespace fs = std::filesystem;
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr int kSlotsInFlight = 4;  // one captured, one computed, one waiting at either side
+constexpr int kWriterThreads = 2;
+constexpr std::size_t kRejectedListed = 10'000;  // so that hours with a bad sensor do not fill the memory
+
+// The number of frames to come, if that can be known.
+std::optional<std::int64_t> expected_frames(const SourceInfo& source, const FrameSettings& settings) {
+  if (source.frame_count) return selected_frames(settings, *source.frame_count);
+  return settings.frames > 0 ? std::optional(settings.frames) : std::nullopt;
+}
+
+// One `saccade run`, from open source to manifest.
+class Run {
+ public:
+  Run(const RunArguments& arguments, const Settings& settings) : folder_(arguments.out) {
+    report_.command_line = arguments.command_line;
+    report_.settings = settings;
+    report_.workers = worker_count(settings);
+    report_.out = arguments.out;
+  }
+
+  void execute(const std::string& uri) {
+    auto source = open(uri);
+    auto processor = make_processor(
+        {report_.settings, report_.settings, requested_outputs(report_.settings), report_.workers});
+    make_output_folder(folder_);
+    write_manifest();
+    try {
+      process(std::move(source), std::move(processor));
+      check_any_processed();
+      report_.status = interrupt_.happened() ? "interrupted" : "done";
+    } catch (const std::exception& error) {
+      report_.status = "failed";
+      report_.error = error.what();
+      write_manifest_if_possible();
+      throw;
+    }
+    write_manifest();
+    report_rejected(report_);
+    print_summary();
+  }
+
+ private:
+  // Opens the source and adapts the settings to what it gives.
+  std::unique_ptr<FrameSource> open(const std::string& uri) {
+    Settings& settings = report_.settings;
+    auto source = open_source(uri, settings.sensor);
+    report_.source = source->info();
+    fit_to_depth(settings, report_.source);
+    fit_default_levels(settings, report_.source);
+    check_model(settings, report_.source.size);
+    check_dump(settings, settings.model);
+    check_start(report_.source, settings.start);
+    return source;
+  }
+
+  void process(std::unique_ptr<FrameSource> source, std::unique_ptr<FrameProcessor> processor) {
+    const Settings& settings = report_.settings;
+    const auto begin = Clock::now();
+    const int writers = settings.dump.empty() ? 0 : kWriterThreads;
+    LineFile fixations(folder_ / "fixations.jsonl");
+    Progress progress(!settings.quiet, expected_frames(report_.source, settings));
+    Pipeline pipeline(std::move(source), std::move(processor), pipeline_options(writers));
+    const Interrupt::Handler handler(interrupt_, [&] { pipeline.stop(); });
+    WriterPool writer(writers, [&](const Result& result) {
+      write_frame(folder_, result, settings.dump, settings.first_level);
+    });
+    try {
+      write_results(pipeline, writer, fixations, progress);
+    } catch (...) {
+      end(pipeline, begin);
+      throw;
+    }
+    end(pipeline, begin);
+  }
+
+  PipelineOptions pipeline_options(int writers) {
+    PipelineOptions options;
+    options.frames = report_.settings;
+    options.slots = kSlotsInFlight + writers;
+    if (report_.source.live) {
+      options.policy = FramePolicy::newest;
+      options.on_state = report_state;
+    }
+    options.on_rejected = [this](std::int64_t index, const std::string& reason) { reject(index, reason); };
+    return options;
+  }
+
+  void write_results(Pipeline& pipeline, WriterPool& writer, LineFile& fixations, Progress& progress) {
+    const bool live = report_.source.live;
+    std::function<std::string()> more;
+    if (live) more = [&] { return live_text(pipeline.ledger(), pipeline.latency()); };
+    bool first = true;
+    while (ResultHandle result = pipeline.next()) {
+      // With the first result, since a run without any reports one line, the reason, and nothing else.
+      if (std::exchange(first, false)) {
+        // The camera of a sensor that was connected late is known from its frames only.
+        if (live) report_.source.intrinsics = result->frame.intrinsics;
+        report_notes(report_.source, report_.settings);
+      }
+      fixations.append(fixations_json(*result));
+      report_.stages.add(result->times);
+      writer.submit(std::move(result));
+      progress.update(pipeline.ledger().processed, more);
+    }
+    writer.finish();
+  }
+
+  // Stops and discards the last results, so that the ledger is final.
+  void end(Pipeline& pipeline, Clock::time_point begin) {
+    pipeline.stop();
+    try {
+      while (pipeline.next()) {
+      }
+    } catch (const std::exception&) {
+      // The first error is on its way to the user already.
+    }
+    report_.ledger = pipeline.ledger();
+    report_.latency = pipeline.latency();
+    if (report_.source.live) report_.device = pipeline.source_state();
+    report_.wall_s = std::chrono::duration<double>(Clock::now() - begin).count();
+  }
+
+  // On the capture thread; read by the others after it has ended.
+  void reject(std::int64_t index, const std::string& reason) {
+    if (report_.rejected.size() < kRejectedListed) report_.rejected.emplace_back(index, reason);
+  }
+
+  void check_any_processed() const {
+    if (report_.ledger.processed == 0 && !report_.rejected.empty())
+      throw unreadable(fmt::format("none of {} frames could be used; the first: {}", report_.ledger.rejected,
+                                   report_.rejected.front().second),
+                       report_.source.uri, "manifest.json lists them with their reasons");
+  }
+
+  void write_manifest() const {
+    write_file(folder_ / "manifest.json", manifest_json(report_).dump(2) + "\n");
+  }
+
+  void write_manifest_if_possible() const {
+    try {
+      write_manifest();
+    } catch (const Error& error) {
+      spdlog::debug("{}", error.what());  // most likely the disk is full, which is the error being reported
+    }
+  }
+
+  void print_summary() const {
+    if (report_.settings.json)
+      fmt::print("{}\n", summary_json(report_).dump());
+    else if (!report_.settings.quiet)
+      fmt::print("{}\n", summary_text(report_));
+    std::fflush(stdout);
+  }
+
+  Interrupt interrupt_;  // before any thread is started
+  fs::path folder_;
+  RunReport report_;
+};
+
+}  // namespace
+
+void run(const RunArguments& arguments, const Settings& settings) {
+  cv::setNumThreads(1);  // OpenCV must not start threads besides ours
+  Run(arguments, settings).execute(arguments.source);
+}
+
+}  // namespace saccade

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "settings/settings.hpp"
+
+namespace saccade {
+
+struct RunArguments {
+  std::string source;                     ///< as open_source() takes it
+  std::string out;                        ///< folder, made if it does not exist
+  std::vector<std::string> command_line;  ///< for the manifest
+};
+
+/// `saccade run`: computes every selected frame of the source and writes its files, fixations.jsonl and
+/// manifest.json into the folder. Throws Error; the manifest then says so if the folder was made.
+void run(const RunArguments& arguments, const Settings& settings);
+
+}  // namespace saccade
