@@ -3,6 +3,7 @@
 #include <array>
 #include <chrono>
 #include <cstdio>
+#include <stdexcept>
 #include <vector>
 
 #include <fmt/format.h>
@@ -47,7 +48,8 @@ Frame table_frame(cv::Size size) {
   SyntheticSource source(fmt::format("synthetic:table?seed=1&noise=kinect&missing=0.2&frames=1&size={}x{}",
                                      size.width, size.height));
   Frame frame;
-  source.read(frame, std::chrono::milliseconds(0));
+  if (source.read(frame, std::chrono::milliseconds(0)).status != ReadStatus::frame)
+    throw std::logic_error("bench: the synthetic table has no frame");
   return frame;
 }
 

@@ -34,7 +34,7 @@ class RecordTest : public ProgramTest {
     Frame frame;
     cv::Mat1f depth;
     for (std::size_t k = 0; k < node->frames.size(); ++k) {
-      source->read(frame, std::chrono::milliseconds(0));
+      EXPECT_EQ(source->read(frame, std::chrono::milliseconds(0)).status, ReadStatus::frame);
       EXPECT_TRUE(succeeded(recording.read_depth(*node, k, depth)));
       EXPECT_EQ(cv::norm(depth, frame.depth_mm, cv::NORM_INF), 0) << "frame " << k;
     }

@@ -108,7 +108,7 @@ int seek_at_random(OniSource& source) {
   Frame frame;
   for (int k = 0; k < kSeeks; ++k) {
     source.seek(static_cast<std::int64_t>(random() % static_cast<unsigned>(*source.info().frame_count)));
-    source.read(frame, kNoWait);
+    if (source.read(frame, kNoWait).status != ReadStatus::frame) throw std::runtime_error("bad frame");
   }
   return kSeeks;
 }

@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <filesystem>
+#include <stdexcept>
 #include <string>
 
 #include <benchmark/benchmark.h>
@@ -21,7 +22,8 @@ cv::Mat1f table(cv::Size size) {
   SyntheticSource source("synthetic:table?seed=1&noise=kinect&missing=0.2&frames=1&size=" +
                          std::to_string(size.width) + "x" + std::to_string(size.height));
   Frame frame;
-  source.read(frame, std::chrono::milliseconds(0));
+  if (source.read(frame, std::chrono::milliseconds(0)).status != ReadStatus::frame)
+    throw std::logic_error("the synthetic table has no frame");
   return frame.depth_mm;
 }
 

@@ -12,7 +12,7 @@ namespace {
 Frame table_frame() {
   SyntheticSource source("synthetic:table?noise=kinect&size=160x120&seed=2");
   Frame frame;
-  source.read(frame, std::chrono::milliseconds(0));
+  EXPECT_EQ(source.read(frame, std::chrono::milliseconds(0)).status, ReadStatus::frame);
   return frame;
 }
 

@@ -96,9 +96,9 @@ TEST_F(OsdSourceTest, DepthImagesComeBeforeClouds) {
   const auto source = open();
   EXPECT_EQ(source->info().intrinsics.fx, 500) << "meta.json comes before the clouds";
   Frame frame;
-  source->read(frame, kNoWait);
+  EXPECT_EQ(source->read(frame, kNoWait).status, ReadStatus::frame);
   EXPECT_EQ(frame.depth_mm(0, 0), 800);
-  source->read(frame, kNoWait);
+  EXPECT_EQ(source->read(frame, kNoWait).status, ReadStatus::frame);
   EXPECT_NEAR(frame.depth_mm(0, 0), 1700, 0.01);
   EXPECT_EQ(source->read(frame, kNoWait).status, ReadStatus::end);
 }

@@ -222,10 +222,10 @@ TEST(SyntheticSource, MissingStripsBelongToTheScene) {
 TEST(SyntheticSource, FramesReuseTheirMemory) {
   SyntheticSource source("synthetic:cone?size=64x48&noise=kinect&camera=orbit");
   Frame frame;
-  source.read(frame, kNoWait);
+  EXPECT_EQ(source.read(frame, kNoWait).status, ReadStatus::frame);
   const auto *depth = frame.depth_mm.data, *colour = frame.colour.data, *labels = frame.truth.labels.data,
              *normals = frame.truth.normals.data;
-  source.read(frame, kNoWait);
+  EXPECT_EQ(source.read(frame, kNoWait).status, ReadStatus::frame);
   EXPECT_EQ(frame.depth_mm.data, depth);
   EXPECT_EQ(frame.colour.data, colour);
   EXPECT_EQ(frame.truth.labels.data, labels);

@@ -119,7 +119,7 @@ TEST_F(ViewerTest, TheScreenshotShowsTheFrameAtAnyScale) {
   OniSource source(kTable);
   source.seek(5);
   Frame frame;
-  source.read(frame, std::chrono::milliseconds(0));
+  EXPECT_EQ(source.read(frame, std::chrono::milliseconds(0)).status, ReadStatus::frame);
   keep_state(R"({"map": false, "marks": false, "path": false, "outlines": false})");
   for (const char* scale : {"1", "2"}) {
     ASSERT_EQ(run({kTable, "--start", "5", "--frames", "1", "--size", "1280x800", "--ui-scale", scale,
