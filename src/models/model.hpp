@@ -13,15 +13,14 @@
 
 namespace saccade {
 
-/// Something that gives each pixel of a frame a saliency. Deterministic: the same frame gives the same map,
-/// for any number of workers. Keeps memory between frames. Thread safety: one compute() at a time per object.
+/// Computes the saliency of each pixel of a frame. Deterministic: the same frame gives the same map, for any
+/// number of workers. Keeps memory between frames. Thread safety: one compute() at a time per object.
 class SaliencyModel {
  public:
   virtual ~SaliencyModel() = default;
 
-  /// Fills maps.master (H x W of the frame, finite, >= 0) and of the by-products those that are wanted and
-  /// that the model has; the others are left empty. Adds to `times`. Throws Error if it cannot work on frames
-  /// like this one.
+  /// Fills maps.master (H x W of the frame, finite, >= 0) and the requested by-products that the model has;
+  /// the others are left empty. Adds to `times`. Throws Error for frames that it cannot process.
   virtual void compute(const Frame& frame, RequestedOutputs outputs, SaliencyMaps& maps,
                        StageTimes& times) = 0;
 };
@@ -30,8 +29,9 @@ class SaliencyModel {
 struct ModelInfo {
   std::string_view name;
   std::string_view help;  ///< one line
-  /// True if it is made with the operator of src/saliency: it sees nothing where there is no depth, kernel,
-  /// levels, length scale and normalisation are parameters of it, and it has the by-products of the operator.
+  /// True for the models that use the operator of src/saliency: they see nothing where there is no depth,
+  /// kernel, levels, length scale and normalisation are their parameters, and they have the operator's
+  /// by-products.
   bool needs_depth;
   std::unique_ptr<SaliencyModel> (*make)(const ModelSettings& settings, WorkerPool& pool);
 };

@@ -45,13 +45,12 @@ struct PipelineOptions {
 ///     newest:       capture thread <-mailbox-> compute thread (+ its pool) --ring--> next()
 ///                                                ^-------- slots given back ----------'
 ///
-/// A fixed number of slots circulates, so nothing is allocated once they have been filled. every_frame: when
-/// all are in use capture waits (back-pressure), and nothing is dropped while it runs. newest: capture and
-/// compute each hold a slot and swap it for the one in the mailbox; compute takes the newest frame only when
-/// it has a free slot for its next result, so that the time from capture to result is at most that of one
-/// frame to come and one to be computed, as long as the consumer keeps up.
-/// An exception of either thread ends the stream and reaches the consumer from next(), after the results that
-/// came before it.
+/// A fixed number of slots circulates, so that nothing is allocated once they have been filled. every_frame:
+/// capture waits while all slots are in use (back-pressure), and nothing is dropped while it runs. newest:
+/// capture and compute each hold a slot and exchange it for the one in the mailbox. Compute takes the newest
+/// frame only when it has a free slot for its next result; as long as the consumer keeps up, the time from
+/// capture to result is therefore at most the time for one frame to arrive and one to be computed.
+/// next() rethrows an exception of either thread, after the results before it; the exception ends the stream.
 class Pipeline {
  public:
   /// Starts at once. Throws std::invalid_argument for options out of range.
@@ -63,24 +62,24 @@ class Pipeline {
   Pipeline(const Pipeline&) = delete;
   Pipeline& operator=(const Pipeline&) = delete;
 
-  /// The next result; empty at the end. Rethrows what ended the stream early. One thread at a time.
+  /// The next result; empty at the end. Rethrows the exception that ended the stream. One thread at a time.
   ResultHandle next();
 
-  /// Ends the stream early: no more capture, frames waiting for their turn are dropped and counted, the one
-  /// being computed is finished. next() still gives what is computed, then ends. Any thread, any number of
+  /// Ends the stream early: capture stops, waiting frames are dropped and counted, and the frame being
+  /// computed is finished. next() still returns the computed results, then ends. Any thread, any number of
   /// times.
   void stop() noexcept;
 
-  /// A consistent snapshot. Any thread. When next() has returned empty or thrown, nothing is in flight.
+  /// A consistent snapshot. Any thread. No frame is in flight when next() has returned empty or thrown.
   Ledger ledger() const { return counters_.snapshot(); }
 
-  /// From the capture of a frame to its result from next(), of all results so far. Thread of next() only.
+  /// The times from the capture of a frame to its result from next(). Thread of next() only.
   const DurationHistogram& latency() const { return latency_; }
 
-  /// How the source is doing. Any thread.
+  /// The state of the source. Any thread.
   SourceState source_state() const { return source_->state(); }
 
-  /// What can be changed on the source's sensor; nullptr if it has none. Lives as long as the pipeline.
+  /// The controls of the source's sensor; nullptr if it has none. They live as long as the pipeline.
   SensorControls* controls() { return source_->controls(); }
 
  private:

@@ -40,7 +40,7 @@ struct PlaybackState {
   bool at_end = false;         ///< paused because there is no further frame
 };
 
-/// The controls of a player; a PacedSource obeys them. They outlast the source and keep their state, except
+/// The controls of a player; a PacedSource follows them. They outlast the source and keep their state, except
 /// for the position, when the next one is opened. Any thread may call any function.
 class PlaybackControls {
  public:
