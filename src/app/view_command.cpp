@@ -9,6 +9,7 @@
 #include "app/command.hpp"
 #include "app/interrupt.hpp"
 #include "app/options.hpp"
+#include "app/source_option.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "drivers/openni2/openni2_devices.hpp"
@@ -125,7 +126,8 @@ void add_view_command(CLI::App& app, std::function<void()>& action) {
   CLI::App& command = *app.add_subcommand("view", "the viewer: see what attracts attention, and tune it");
   const auto arguments = std::make_shared<ViewArguments>();
   ViewArguments& a = *arguments;
-  command.add_option("SOURCE", a.source, "as for run; the bundled recording if there is none");
+  add_source_option(command, "SOURCE", a.source,
+                    "what to show, see the end of this help; the bundled recording if there is none");
   command.add_option("--size", a.size, "of the window in pixels, instead of the last time's")
       ->type_name("WxH");
   command

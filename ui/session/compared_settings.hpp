@@ -31,7 +31,7 @@ void share_source(ComparedSettings& settings);
 /// Reads a TOML file into A, or into B: what the file does not say of the tuned settings becomes the default;
 /// what it says of camera and sensor holds for both sides. Returns the keys of the file that say something
 /// else than what holds and that a window does not take up while it runs, such as "workers". Throws as
-/// load_settings(); the tuning is then as it was.
+/// load_settings(); the settings are then as they were.
 std::vector<std::string> load_compared(ComparedSettings& settings, bool into_b, const std::string& path);
 
 }  // namespace saccade

@@ -1,5 +1,3 @@
-#include "sources/osd_listing.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -11,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "sources/folder_source.hpp"
 
 namespace saccade {
 namespace fs = std::filesystem;
@@ -18,7 +17,7 @@ namespace {
 
 constexpr std::array<const char*, 3> kDepthFolders = {"depth", "disparity", "point_cloud"};
 
-// Names ordered as people count: by the text before a trailing number, then by the number.
+// Names in natural order: by the text before a trailing number, then by the number.
 struct NaturalOrder {
   static std::pair<std::string, std::string> parts(const std::string& name) {
     const auto digit = [](char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; };
@@ -35,11 +34,6 @@ struct NaturalOrder {
   }
 };
 
-std::string lower(std::string text) {
-  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return text;
-}
-
 // Stem -> file of a folder's files with one of the endings; empty if there is no such folder.
 std::map<std::string, fs::path, NaturalOrder> files_of(const fs::path& folder,
                                                        const std::vector<std::string>& endings) {
@@ -49,7 +43,7 @@ std::map<std::string, fs::path, NaturalOrder> files_of(const fs::path& folder,
   for (const auto& file : fs::directory_iterator(folder)) paths.push_back(file.path());
   std::sort(paths.begin(), paths.end());  // the same one of two with one stem, on every machine
   for (const fs::path& path : paths)
-    if (std::find(endings.begin(), endings.end(), lower(path.extension().string())) != endings.end())
+    if (std::find(endings.begin(), endings.end(), ending_of(path)) != endings.end())
       files.emplace(path.stem().string(), path);
   return files;
 }
@@ -59,19 +53,19 @@ fs::path find(const std::map<std::string, fs::path, NaturalOrder>& files, const 
   return file == files.end() ? fs::path() : file->second;
 }
 
-}  // namespace
-
-bool is_osd(const fs::path& folder) {
-  const bool depth = std::any_of(kDepthFolders.begin(), kDepthFolders.end(),
-                                 [&](const char* name) { return fs::is_directory(folder / name); });
-  return depth && (fs::is_directory(folder / "image_color") || fs::is_directory(folder / "annotation"));
+bool has_osd_folders(const SourceInput& input) {
+  const auto holds = [&](const char* name) { return fs::is_directory(input.path / name); };
+  return input.type == SourceInput::Type::folder && std::ranges::any_of(kDepthFolders, holds) &&
+         (holds("image_color") || holds("annotation"));
 }
 
+// The frames in the natural order of their names (learn2 before learn10): for each name the file of the first
+// depth folder that has it, with the files of the same name in image_color/ and annotation/.
 FolderListing list_osd(const fs::path& folder) {
   const auto colour = files_of(folder / "image_color", {".png", ".jpg", ".jpeg"});
   const auto labels = files_of(folder / "annotation", {".png"});
   FolderListing listing;
-  listing.kind = "osd";
+  listing.colours_are_labels = true;
   std::map<std::string, fs::path, NaturalOrder> depth;
   for (const char* name : kDepthFolders) {
     const bool clouds = std::string(name) == "point_cloud";
@@ -95,5 +89,17 @@ FolderListing list_osd(const fs::path& folder) {
                                         listing.entries.size()));
   return listing;
 }
+
+}  // namespace
+
+extern const SourceKind kOsdKind = {
+    .name = "osd",
+    .written = "FOLDER",
+    .help = "the Object Segmentation Database: depth images or organised clouds, images, annotations",
+    .recognised_by = "image_color/ or annotation/ beside depth/, disparity/ or point_cloud/",
+    .recognises = has_osd_folders,
+    .open = [](const SourceInput& input,
+               const SensorSettings&) { return open_folder(input, kOsdKind.name, list_osd(input.path)); },
+};
 
 }  // namespace saccade
