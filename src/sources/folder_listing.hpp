@@ -15,6 +15,7 @@ struct FolderEntry {
   std::string name;                            ///< "0007", or the time stamp in a TUM folder
   std::int64_t timestamp_us = 0;               ///< from the first frame
   std::filesystem::path depth, colour, label;  ///< colour and label may be empty
+  std::filesystem::path classes{};             ///< may be empty
 };
 
 struct FolderListing {
