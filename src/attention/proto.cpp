@@ -74,12 +74,12 @@ void ProtoSelector::select(const cv::Mat1f& saliency, const cv::Mat1f& depth_mm,
                            Attention& attention) {
   begin_attention(saliency, depth_mm, camera, attention);
   grid_.build(depth_mm, camera);
-  patches_.grow(grid_);
+  segments_.grow(grid_);
   smooth_cells(saliency, scratch_, value_);
   set_rays(depth_mm.size(), camera);
   make_return_table();
   weigh();
-  list_cells_of_patches();
+  list_cells_of_segments();
   for (int rank = 1; rank <= fixations_; ++rank) {
     int row = 0, col = 0;
     if (!find_winner(row, col)) {
@@ -102,31 +102,32 @@ void ProtoSelector::weigh() {
   row_best_.assign(at(grid_.rows()), 0.0F);
   for (int r = 0, i = 0; r < grid_.rows(); ++r)
     for (int c = 0; c < grid_.cols(); ++c, ++i) {
-      const int patch = patches_.of_cell()[at(i)];
+      const int segment = segments_.of_cell()[at(i)];
       if (grid_.depth_mm()[at(i)] == 0)
         value_[at(i)] = 0;
-      else if (patch != Patches::kNone && patches_.is_support(patch))
-        value_[at(i)] *= kSupportWeight;
+      else if (segment != SurfaceSegments::kNone && segments_.is_supporting_plane(segment))
+        value_[at(i)] *= kSupportingPlaneWeight;
       row_best_[at(r)] = std::max(row_best_[at(r)], value_[at(i)]);
     }
 }
 
-// The cells sorted by patch, those of no patch first: cells_of_patch_[first_of_patch_[p + 1] ...) for p.
-void ProtoSelector::list_cells_of_patches() {
-  first_of_patch_.assign(at(patches_.count() + 2), 0);
-  for (int patch : patches_.of_cell()) ++first_of_patch_[at(patch + 1)];
+// The cells sorted by segment s from cells_of_segment_[first_of_segment_[s + 1]] on, those of no segment
+// first.
+void ProtoSelector::list_cells_of_segments() {
+  first_of_segment_.assign(at(segments_.count() + 2), 0);
+  for (int segment : segments_.of_cell()) ++first_of_segment_[at(segment + 1)];
   int sum = 0;
-  for (int& first : first_of_patch_) {
+  for (int& first : first_of_segment_) {
     const int cells = first;
     first = sum;
     sum += cells;
   }
-  cells_of_patch_.resize(grid_.size());
+  cells_of_segment_.resize(grid_.size());
   for (int i = 0; i < static_cast<int>(grid_.size()); ++i)
-    cells_of_patch_[at(first_of_patch_[at(patches_.of_cell()[at(i)] + 1)]++)] = i;
-  // Each entry has moved to the end of its patch, which is the beginning of the next.
-  std::move_backward(first_of_patch_.begin(), first_of_patch_.end() - 1, first_of_patch_.end());
-  first_of_patch_[0] = 0;
+    cells_of_segment_[at(first_of_segment_[at(segments_.of_cell()[at(i)] + 1)]++)] = i;
+  // Each entry has moved to the end of its segment, which is the beginning of the next.
+  std::move_backward(first_of_segment_.begin(), first_of_segment_.end() - 1, first_of_segment_.end());
+  first_of_segment_[0] = 0;
   object_.reserve(grid_.size());
   in_object_.assign(grid_.size(), 0);
 }
@@ -141,11 +142,11 @@ bool ProtoSelector::find_winner(int& row, int& col) const {
 }
 
 void ProtoSelector::collect_proto_object(int row, int col) {
-  const int cols = grid_.cols(), patch = patches_.of_cell()[at(row * cols + col)];
-  const bool whole = patch != Patches::kNone && !patches_.is_support(patch);
+  const int cols = grid_.cols(), segment = segments_.of_cell()[at(row * cols + col)];
+  const bool whole = segment != SurfaceSegments::kNone && !segments_.is_supporting_plane(segment);
   object_.clear();
-  for (int k = first_of_patch_[at(patch + 1)]; k < first_of_patch_[at(patch + 2)]; ++k) {
-    const int i = cells_of_patch_[at(k)], down = i / cols - row, right = i % cols - col;
+  for (int k = first_of_segment_[at(segment + 1)]; k < first_of_segment_[at(segment + 2)]; ++k) {
+    const int i = cells_of_segment_[at(k)], down = i / cols - row, right = i % cols - col;
     if (whole || down * down + right * right <= kDiscCells * kDiscCells) object_.push_back(i);
   }
 }

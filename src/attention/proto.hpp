@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "attention/attention.hpp"
-#include "attention/patches.hpp"
 #include "attention/surface_grid.hpp"
+#include "attention/surface_segments.hpp"
 
 namespace saccade {
 
@@ -17,13 +17,13 @@ void smooth_cells(const cv::Mat1f& saliency, std::vector<float>& scratch, std::v
 /// Selector `proto`: one fixation per proto-object.
 ///
 /// Works on the cells of SurfaceGrid. The saliency is smoothed (smooth_cells); cells without depth are out of
-/// the race. Cells of a support (Patches) count kSupportWeight of their value: coarse pyramid levels spread
-/// an object's saliency over the table before it, and a plane behind the things is no object while there are
-/// others. Then, as often as asked:
+/// the race. Cells of a supporting plane (SurfaceSegments) count kSupportingPlaneWeight of their value:
+/// coarse pyramid levels spread an object's saliency over the table before it, and a plane behind the things
+/// is no object while there are others. Then, as often as asked:
 ///  - the winner is the cell with the largest value; ties: lowest row, then lowest column;
 ///  - the fixation is its pixel of the highest saliency on the cell's surface; ties as before;
-///  - its proto-object is the patch of the cell; on a support, or where there is no patch, it is what of it
-///    lies within kDiscCells;
+///  - its proto-object is the segment of the cell; on a supporting plane, or where there is no
+///    segment, it is the part that lies within kDiscCells;
 ///  - the proto-object and a margin of kMarginCells around it are inhibited: their values become 0;
 ///  - inhibition of return: every value is multiplied by 1 - kReturnDepth * exp(-d^2 / 2 s^2), d the distance
 ///    from the fixation in the image and s = kReturnReach of its width. Large things fall into several
@@ -32,7 +32,7 @@ void smooth_cells(const cv::Mat1f& saliency, std::vector<float>& scratch, std::v
 /// on its surface, not the margin; masks do not overlap.
 class ProtoSelector : public AttentionSelector {
  public:
-  static constexpr float kSupportWeight = 0.02F;
+  static constexpr float kSupportingPlaneWeight = 0.02F;
   static constexpr int kDiscCells = 10;   ///< radius; 40 px
   static constexpr int kMarginCells = 3;  ///< radius; 12 px
   static constexpr float kReturnDepth = 0.6F;
@@ -45,7 +45,7 @@ class ProtoSelector : public AttentionSelector {
 
  private:
   void weigh();
-  void list_cells_of_patches();
+  void list_cells_of_segments();
   bool find_winner(int& row, int& col) const;
   void collect_proto_object(int row, int col);
   void inhibit();
@@ -57,12 +57,12 @@ class ProtoSelector : public AttentionSelector {
 
   int fixations_;
   SurfaceGrid grid_;
-  Patches patches_;
+  SurfaceSegments segments_;
   std::vector<float> scratch_, value_;
   std::vector<float> row_best_;       ///< largest value of each row
   std::vector<float> return_table_;   ///< exp(-d^2 / 2 s^2) by d in cells
   std::vector<float> ray_x_, ray_y_;  ///< x/z of each column, y/z of each row
-  std::vector<int> first_of_patch_, cells_of_patch_;
+  std::vector<int> first_of_segment_, cells_of_segment_;
   std::vector<int> object_;               ///< cells of the present proto-object
   std::vector<unsigned char> in_object_;  ///< the same, by cell
 };

@@ -10,7 +10,7 @@ namespace saccade {
 namespace {
 
 constexpr int kCell = SurfaceGrid::kCellPx;
-constexpr int kReach = 2;  // cells; of the normals' support and of the baseline of the concavity test
+constexpr int kReach = 2;  // cells; of the normals' window and of the baseline of the concavity test
 
 // A depth jump, as a part of the depth; in a sensor whose noise grows with z^2 it must grow so beyond 1 m.
 constexpr float kJump = 0.012F;
@@ -219,7 +219,7 @@ void SurfaceGrid::make_normals() {
 
 // A cell lies on a concave edge if, along one of four directions, the surface turns towards the camera
 // around it. Both ends are kReach cells off, where the normals do not mix the two sides; that makes the edge
-// some cells wide, so that no gap of the noise lets a patch leak through.
+// some cells wide, so that no gap of the noise lets a segment leak through.
 void SurfaceGrid::find_concave_edges() {
   concave_.assign(size(), 0);
   const int directions[4][2] = {{0, 1}, {1, 0}, {1, 1}, {1, -1}};

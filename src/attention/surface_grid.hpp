@@ -11,7 +11,7 @@
 namespace saccade {
 
 /// The depth image in cells of kCellPx x kCellPx pixels, each with a depth, a point, a normal over a wide
-/// support, and the links to its neighbours: two cells are linked if one surface goes through both.
+/// window, and the links to its neighbours: two cells are linked if one surface goes through both.
 /// Arrays are row by row; they and their memory stay until the next build().
 /// Thread safety: one build() at a time per object; reading is free.
 class SurfaceGrid {
@@ -43,7 +43,7 @@ class SurfaceGrid {
   /// Neighbours of one surface with this cell: no depth jump between them.
   const std::vector<std::uint8_t>& links() const { return links_; }
 
-  /// 1 where a patch of convex surface can grow: there is a normal, and no concave edge passes.
+  /// 1 where a segment of convex surface can grow: there is a normal, and no concave edge passes.
   const std::vector<std::uint8_t>& convex() const { return convex_; }
 
   static constexpr float kSameSurface = 0.02F;  ///< of the depth; beyond it is another surface

@@ -1,4 +1,4 @@
-#include "attention/patches.hpp"
+#include "attention/surface_segments.hpp"
 
 #include <algorithm>
 #include <vector>
@@ -10,33 +10,33 @@
 namespace saccade {
 namespace {
 
-TEST(Patches, SeparatesThingsFromTheTableAndKnowsTheTable) {
+TEST(SurfaceSegments, SeparatesThingsFromTheTableAndFindsTheTableAsSupportingPlane) {
   const TableScene scene = look_at_table({box(-150, 0, 120, 100, 120), ball(150, 0, 60)});
   SurfaceGrid grid;
   grid.build(scene.depth_mm, scene.camera);
-  Patches patches;
-  patches.grow(grid);
-  const auto patch_at = [&](cv::Point p) {
-    return patches.of_cell()[static_cast<std::size_t>(p.y / 4 * grid.cols() + p.x / 4)];
+  SurfaceSegments segments;
+  segments.grow(grid);
+  const auto segment_at = [&](cv::Point p) {
+    return segments.of_cell()[static_cast<std::size_t>(p.y / 4 * grid.cols() + p.x / 4)];
   };
-  const int first = patch_at(middle_of(scene.labels, 1)), second = patch_at(middle_of(scene.labels, 2)),
-            table = patch_at({320, 460});
+  const int first = segment_at(middle_of(scene.labels, 1)), second = segment_at(middle_of(scene.labels, 2)),
+            table = segment_at({320, 460});
   ASSERT_GE(std::min({first, second, table}), 0);
   EXPECT_NE(first, table);
   EXPECT_NE(second, table);
   EXPECT_NE(first, second);
-  EXPECT_TRUE(patches.is_support(table));
-  EXPECT_FALSE(patches.is_support(first));
-  EXPECT_FALSE(patches.is_support(second));
+  EXPECT_TRUE(segments.is_supporting_plane(table));
+  EXPECT_FALSE(segments.is_supporting_plane(first));
+  EXPECT_FALSE(segments.is_supporting_plane(second));
 }
 
-// The slow form of a patch: take in any cell that touches it by a link, until nothing changes.
-TEST(Patches, ConvexCellsOfAPatchAreExactlyThoseThatCanBeReached) {
+// The slow form of a segment: take in any cell that touches it by a link, until nothing changes.
+TEST(SurfaceSegments, ConvexCellsOfASegmentAreExactlyThoseThatCanBeReached) {
   const TableScene scene = look_at_table({box(-60, 0, 119, 100, 90), box(60, 30, 120, 100, 140)}, {320, 240});
   SurfaceGrid grid;
   grid.build(scene.depth_mm, scene.camera);
-  Patches patches;
-  patches.grow(grid);
+  SurfaceSegments segments;
+  segments.grow(grid);
   const auto& convex = grid.convex();
   for (int label : {1, 2}) {
     const cv::Point middle = middle_of(scene.labels, label);
@@ -55,22 +55,22 @@ TEST(Patches, ConvexCellsOfAPatchAreExactlyThoseThatCanBeReached) {
           in[i] = 1, changed = true;
       }
     }
-    const int patch = patches.of_cell()[seed];
-    ASSERT_FALSE(patches.is_support(patch));
+    const int segment = segments.of_cell()[seed];
+    ASSERT_FALSE(segments.is_supporting_plane(segment));
     for (std::size_t i = 0; i < grid.size(); ++i)
       if (convex[i]) {
-        EXPECT_EQ(in[i] != 0, patches.of_cell()[i] == patch) << i;
+        EXPECT_EQ(in[i] != 0, segments.of_cell()[i] == segment) << i;
       }
   }
 }
 
-TEST(Patches, NothingValidMakesNone) {
+TEST(SurfaceSegments, NothingValidMakesNone) {
   SurfaceGrid grid;
   grid.build(cv::Mat1f(30, 50, 0.0F), Intrinsics::guess_for({50, 30}));
-  Patches patches;
-  patches.grow(grid);
-  EXPECT_EQ(patches.count(), 0);
-  for (int patch : patches.of_cell()) EXPECT_EQ(patch, Patches::kNone);
+  SurfaceSegments segments;
+  segments.grow(grid);
+  EXPECT_EQ(segments.count(), 0);
+  for (int segment : segments.of_cell()) EXPECT_EQ(segment, SurfaceSegments::kNone);
 }
 
 }  // namespace
