@@ -15,10 +15,10 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr int kFormat = 1;  // of results.jsonl
+constexpr int kFormat = 2;  // of results.jsonl
 constexpr int kMostShards = 100'000;
 
-// Settings that a plan names itself, and those that change no result.
+// Settings that are fields of the plan, and those that change no result.
 constexpr std::array<std::string_view, 9> kNotInPlan = {"model", "kernel", "selector", "fixations", "workers",
                                                         "dump",  "json",   "quiet",    "log-level"};
 
@@ -45,8 +45,8 @@ void parse_list(const EvalPlan& plan, const std::string& key, const std::string&
   for (std::size_t i = 0; i < words.size(); ++i) {
     if (std::find(words.begin(), words.begin() + static_cast<std::ptrdiff_t>(i), words[i]) !=
         words.begin() + static_cast<std::ptrdiff_t>(i))
-      throw usage_error(fmt::format("'{}' is named twice", words[i]), fmt::format("--{}s", key),
-                        "name it once");
+      throw usage_error(fmt::format("'{}' is given twice", words[i]), fmt::format("--{}s", key),
+                        "give it once");
     Settings settings;
     apply_setting(settings, key, words[i]);
     take(settings);
