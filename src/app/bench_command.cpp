@@ -15,8 +15,8 @@
 #include "core/error.hpp"
 #include "pipeline/processor.hpp"
 #include "pipeline/stage_statistics.hpp"
-#include "saliency/kernels.hpp"
 #include "saliency/reference.hpp"
+#include "saliency/simd/simd_stages.hpp"
 #include "sources/synthetic_source.hpp"
 
 namespace saccade {
@@ -118,7 +118,7 @@ void print(const Measurement& m) {
 
 void bench(const Settings& settings, double seconds) {
   cv::setNumThreads(1);
-  const std::string_view instructions = choose_kernels(settings.simd).name;
+  const std::string_view instructions = choose_simd_stages(settings.simd).name;
   const int workers = worker_count(settings);
   const cv::Size largest = kSensorSizes.back().size;
   check_levels(largest, Symmetry3dParams::from(settings));

@@ -9,7 +9,7 @@ namespace saccade {
 class RandomModel : public SaliencyModel {
  public:
   explicit RandomModel(WorkerPool& pool) : pool_(pool) {}
-  void compute(const Frame& frame, RequestedOutputs wants, SaliencyMaps& maps, StageTimes& times) override;
+  void compute(const Frame& frame, RequestedOutputs outputs, SaliencyMaps& maps, StageTimes& times) override;
 
  private:
   WorkerPool& pool_;
@@ -20,7 +20,7 @@ class RandomModel : public SaliencyModel {
 class CentreModel : public SaliencyModel {
  public:
   explicit CentreModel(WorkerPool& pool) : pool_(pool) {}
-  void compute(const Frame& frame, RequestedOutputs wants, SaliencyMaps& maps, StageTimes& times) override;
+  void compute(const Frame& frame, RequestedOutputs outputs, SaliencyMaps& maps, StageTimes& times) override;
 
  private:
   WorkerPool& pool_;

@@ -75,11 +75,11 @@ float CombinedModel::trust_in_3d(const cv::Mat1f& depth_mm) {
   return 1 / (1 + (x * x) * (x * x));
 }
 
-void CombinedModel::compute(const Frame& frame, RequestedOutputs wants, SaliencyMaps& maps,
+void CombinedModel::compute(const Frame& frame, RequestedOutputs outputs, SaliencyMaps& maps,
                             StageTimes& times) {
   itti_->compute(frame, {}, maps_itti_, times);
   symmetry2d_->compute(frame, {}, maps2d_, times);
-  symmetry3d_.compute(frame.depth_mm, frame.intrinsics, {.levels = true, .normals = wants.normals}, maps3d_,
+  symmetry3d_.compute(frame.depth_mm, frame.intrinsics, {.levels = true, .normals = outputs.normals}, maps3d_,
                       times);
   const StageTimer timer(times, Stage::master_map);
   weigh_levels(frame.depth_mm);
@@ -94,9 +94,9 @@ void CombinedModel::compute(const Frame& frame, RequestedOutputs wants, Saliency
   for_row_bands(pool_, frame.size().height, [&](int begin, int end) {
     upsample_rows(reduced3d_, kReducedLevel, maps.master, false, begin, end);
   });
-  maps.levels.resize(wants.levels ? maps3d_.levels.size() : 0);
+  maps.levels.resize(outputs.levels ? maps3d_.levels.size() : 0);
   for (std::size_t i = 0; i < maps.levels.size(); ++i) maps3d_.levels[i].copyTo(maps.levels[i]);
-  if (wants.normals)
+  if (outputs.normals)
     maps3d_.normals.copyTo(maps.normals);
   else
     maps.normals.release();

@@ -23,7 +23,7 @@ class CombinedModel : public SaliencyModel {
  public:
   /// Throws Error (usage) as Symmetry3d.
   CombinedModel(const Settings& settings, WorkerPool& pool);
-  void compute(const Frame& frame, RequestedOutputs wants, SaliencyMaps& maps, StageTimes& times) override;
+  void compute(const Frame& frame, RequestedOutputs outputs, SaliencyMaps& maps, StageTimes& times) override;
 
  private:
   void weigh_levels(const cv::Mat1f& depth_mm);

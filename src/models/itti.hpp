@@ -24,7 +24,7 @@ namespace saccade {
 class IttiModel : public SaliencyModel {
  public:
   IttiModel(const char* name, bool orientation_only, WorkerPool& pool);
-  void compute(const Frame& frame, RequestedOutputs wants, SaliencyMaps& maps, StageTimes& times) override;
+  void compute(const Frame& frame, RequestedOutputs outputs, SaliencyMaps& maps, StageTimes& times) override;
 
  private:
   static constexpr int kOrientations = 4, kCentres = 3, kSurrounds = 2, kLevels = 9;

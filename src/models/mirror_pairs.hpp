@@ -57,7 +57,7 @@ class PairMeasure {
 class MirrorPairModel : public SaliencyModel {
  public:
   MirrorPairModel(const char* name, std::unique_ptr<PairMeasure> measure, WorkerPool& pool);
-  void compute(const Frame& frame, RequestedOutputs wants, SaliencyMaps& maps, StageTimes& times) override;
+  void compute(const Frame& frame, RequestedOutputs outputs, SaliencyMaps& maps, StageTimes& times) override;
 
  private:
   struct Level {

@@ -19,8 +19,8 @@ class Symmetry3dModel : public SaliencyModel {
   Symmetry3dModel(const Settings& settings, WorkerPool& pool)
       : operator_(Symmetry3dParams::from(settings), pool, settings.simd) {}
 
-  void compute(const Frame& frame, RequestedOutputs wants, SaliencyMaps& maps, StageTimes& times) override {
-    operator_.compute(frame.depth_mm, frame.intrinsics, wants, maps, times);
+  void compute(const Frame& frame, RequestedOutputs outputs, SaliencyMaps& maps, StageTimes& times) override {
+    operator_.compute(frame.depth_mm, frame.intrinsics, outputs, maps, times);
   }
 
  private:

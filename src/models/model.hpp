@@ -20,7 +20,8 @@ class SaliencyModel {
   /// Fills maps.master (H x W of the frame, finite, >= 0) and of the by-products those that are wanted and
   /// that the model has; the others are left empty. Adds to `times`. Throws Error if it cannot work on frames
   /// like this one.
-  virtual void compute(const Frame& frame, RequestedOutputs wants, SaliencyMaps& maps, StageTimes& times) = 0;
+  virtual void compute(const Frame& frame, RequestedOutputs outputs, SaliencyMaps& maps,
+                       StageTimes& times) = 0;
 };
 
 /// Whether the model is made with the operator of src/saliency: it sees nothing where there is no depth, and

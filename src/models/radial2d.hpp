@@ -15,7 +15,7 @@ namespace saccade {
 class Radial2dModel : public SaliencyModel {
  public:
   explicit Radial2dModel(WorkerPool& pool) : pool_(pool) {}
-  void compute(const Frame& frame, RequestedOutputs wants, SaliencyMaps& maps, StageTimes& times) override;
+  void compute(const Frame& frame, RequestedOutputs outputs, SaliencyMaps& maps, StageTimes& times) override;
 
  private:
   static constexpr std::array<int, 3> kRadii = {1, 3, 5};

@@ -11,11 +11,11 @@ class ModelProcessor : public FrameProcessor {
       : pool_(worker_count(settings)),
         model_(make_model(settings, pool_)),
         selector_(make_selector(settings)),
-        wants_{settings.dump.contains("levels"), settings.dump.contains("normals")} {}
+        outputs_{settings.dump.contains("levels"), settings.dump.contains("normals")} {}
 
   void process(Result& result) override {
     const Frame& frame = result.frame;
-    model_->compute(frame, wants_, result.maps, result.times);
+    model_->compute(frame, outputs_, result.maps, result.times);
     const StageTimer timer(result.times, Stage::attention);
     selector_->select(result.maps.master, frame.depth_mm, frame.intrinsics, result.attention);
   }
@@ -24,7 +24,7 @@ class ModelProcessor : public FrameProcessor {
   WorkerPool pool_;
   std::unique_ptr<SaliencyModel> model_;
   std::unique_ptr<AttentionSelector> selector_;
-  RequestedOutputs wants_;
+  RequestedOutputs outputs_;
 };
 
 }  // namespace

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "core/settings.hpp"
-#include "saliency/level_planes.hpp"
+#include "saliency/simd/level_planes.hpp"
 
 namespace saccade {
 

@@ -15,6 +15,11 @@ Symmetry3dParams Symmetry3dParams::from(const Settings& s) {
   return {s.kernel, s.first_level, s.last_level, s.length_scale, s.normalisation};
 }
 
+std::optional<double> Symmetry3dParams::lambda_px() const {
+  if (length_scale == LengthScale::millimetre) return std::nullopt;
+  return 0.05 * kernel;
+}
+
 cv::Size level_size(cv::Size image, int level) {
   for (int l = 0; l < level; ++l) image = {(image.width + 1) / 2, (image.height + 1) / 2};
   return image;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <vector>
+#include <optional>
 
 #include <opencv2/core.hpp>
 
@@ -16,6 +16,11 @@ struct Symmetry3dParams {
   LevelNormalisation normalisation = LevelNormalisation::none;
 
   static Symmetry3dParams from(const Settings& settings);
+
+  int reach() const { return kernel / 2; }  ///< h, px: the window is (2h+1)^2 pixels
+  /// lambda in pixels of a level at the depth of the window's centre, so that lambda = lambda_px() * z/fx: 5
+  /// % of the window's width. None: lambda is 1 mm.
+  std::optional<double> lambda_px() const;
 };
 
 /// Size of pyramid level `level` of an image: level l+1 holds the even rows and columns of level l.

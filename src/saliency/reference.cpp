@@ -133,9 +133,9 @@ PlaneSymmetry symmetry_of_plane(const Window& window, const Vector3d& p, const V
   return result;  // Eqs. (3, 13)
 }
 
-double length_scale_mm(const Level& level, int row, int col, const Symmetry3dParams& params) {
-  if (params.length_scale == LengthScale::millimetre) return 1;
-  return 0.05 * params.kernel * level.depth_mm(row, col) / level.camera.fx;
+double lambda_mm_at(const Level& level, int row, int col, const Symmetry3dParams& params) {
+  const std::optional<double> lambda_px = params.lambda_px();
+  return lambda_px ? *lambda_px * level.depth_mm(row, col) / level.camera.fx : 1;
 }
 
 // Value of `map` at a fractional position, bilinear, clamped at the border.
@@ -214,7 +214,7 @@ std::optional<PixelSymmetry> symmetry_at(const Level& level, int row, int col,
   const Window window = window_at(level, row, col, params.kernel / 2);
   const auto axes = gaussian_image_axes(window.normals);
   const Vector3d p = at(level.points_mm, row, col);
-  const double lambda_mm = length_scale_mm(level, row, col, params);
+  const double lambda_mm = lambda_mm_at(level, row, col, params);
   PixelSymmetry pixel;
   pixel.eigenvalues = axes.eigenvalues();
   for (int i = 0; i < 3; ++i)

@@ -4,11 +4,11 @@
 #include <functional>
 #include <stdexcept>
 
-#include "saliency/denormals.hpp"
-#include "saliency/kernels.hpp"
-#include "saliency/level_planes.hpp"
 #include "saliency/level_weight.hpp"
-#include "saliency/row_scratch.hpp"
+#include "saliency/simd/denormals.hpp"
+#include "saliency/simd/level_planes.hpp"
+#include "saliency/simd/row_scratch.hpp"
+#include "saliency/simd/simd_stages.hpp"
 
 namespace saccade {
 namespace {
@@ -36,7 +36,7 @@ std::vector<Band> bands_of(const std::vector<LevelPlanes>& levels, int first_lev
 struct Symmetry3d::State {
   Symmetry3dParams params;
   WorkerPool& pool;
-  const Kernels& kernels;
+  const SimdStages& stages;
 
   // For images of one size:
   cv::Size size;
@@ -47,7 +47,7 @@ struct Symmetry3d::State {
   std::vector<float> weights;       // of each level in the master map
 
   State(const Symmetry3dParams& p, WorkerPool& workers, const std::string& simd)
-      : params(p), pool(workers), kernels(choose_kernels(simd)) {}
+      : params(p), pool(workers), stages(choose_simd_stages(simd)) {}
 
   void resize(cv::Size new_size);
   template <typename Job>
@@ -56,7 +56,7 @@ struct Symmetry3d::State {
   void find_points(bool normals_wanted);
   void find_symmetry();
   void add_levels(cv::Mat1f& master);
-  void copy_wanted(RequestedOutputs wants, SaliencyMaps& maps) const;
+  void copy_outputs(RequestedOutputs outputs, SaliencyMaps& maps) const;
 };
 
 void Symmetry3d::State::resize(cv::Size new_size) {
@@ -69,8 +69,8 @@ void Symmetry3d::State::resize(cv::Size new_size) {
   for (int l = 0; l <= params.last_level; ++l) levels.emplace_back(level_size(size, l), reach);
   for (int w = 0; w < pool.workers(); ++w) {
     scratch.emplace_back(size.width);
-    if (reach >= kernels.runs_from_reach)
-      scratch.back().records = PointRecords(size, reach, 2 * reach + RowScratch::kPreparedRows);
+    if (reach >= stages.runs_from_reach)
+      scratch.back().row_sums = RowPrefixSums(size, reach, 2 * reach + RowScratch::kPreparedRows);
   }
   bands = bands_of(levels, params.first_level);
   ranges.resize(static_cast<std::size_t>((size.height + kBandRows - 1) / kBandRows));
@@ -95,7 +95,7 @@ void Symmetry3d::State::for_bands_of(int level, Job job) {
 // SPEC 1.1 and 1.2
 void Symmetry3d::State::load_pyramid(const cv::Mat1f& depth_mm, const Intrinsics& camera) {
   for_bands_of(0, [&](int begin, int end, RowScratch&, int b) {
-    ranges[static_cast<std::size_t>(b)] = kernels.load_rows(depth_mm, levels[0], begin, end);
+    ranges[static_cast<std::size_t>(b)] = stages.load_rows(depth_mm, levels[0], begin, end);
   });
   DepthRange all;
   for (const DepthRange& range : ranges) {
@@ -108,7 +108,7 @@ void Symmetry3d::State::load_pyramid(const cv::Mat1f& depth_mm, const Intrinsics
                                                  params.kernel / 2 * 2 + 1);
     if (l > 0)
       for_bands_of(static_cast<int>(l), [&](int begin, int end, RowScratch& memory, int) {
-        kernels.halve_rows(levels[l - 1], levels[l], begin, end, memory);
+        stages.halve_rows(levels[l - 1], levels[l], begin, end, memory);
       });
   }
 }
@@ -117,20 +117,20 @@ void Symmetry3d::State::load_pyramid(const cv::Mat1f& depth_mm, const Intrinsics
 void Symmetry3d::State::find_points(bool normals_wanted) {
   const auto job = [&](int b, int) {
     const Band& band = bands[static_cast<std::size_t>(b)];
-    kernels.normal_rows(levels[static_cast<std::size_t>(band.level)], band.begin, band.end);
+    stages.normal_rows(levels[static_cast<std::size_t>(band.level)], band.begin, band.end);
   };
   pool.for_each(static_cast<int>(bands.size()), std::ref(job));
   if (normals_wanted && params.first_level > 0)
-    for_bands_of(0,
-                 [&](int begin, int end, RowScratch&, int) { kernels.normal_rows(levels[0], begin, end); });
+    for_bands_of(0, [&](int begin, int end, RowScratch&, int) { stages.normal_rows(levels[0], begin, end); });
 }
 
 // Section 2 of SPEC. Large levels come first, so that the small ones fill the gaps at the end.
 void Symmetry3d::State::find_symmetry() {
+  const WindowParams window{params.reach(), params.lambda_px()};
   const auto job = [&](int b, int worker) {
     const Band& band = bands[static_cast<std::size_t>(b)];
-    kernels.symmetry_rows(levels[static_cast<std::size_t>(band.level)], params, band.begin, band.end,
-                          scratch[static_cast<std::size_t>(worker)]);
+    stages.symmetry_rows(levels[static_cast<std::size_t>(band.level)], window, band.begin, band.end,
+                         scratch[static_cast<std::size_t>(worker)]);
   };
   pool.for_each(static_cast<int>(bands.size()), std::ref(job));
 }
@@ -143,7 +143,7 @@ void Symmetry3d::State::add_levels(cv::Mat1f& master) {
   for (int l = params.last_level - 1; l >= 0; --l) {
     const std::size_t fine = static_cast<std::size_t>(l);
     for_bands_of(l, [&](int begin, int end, RowScratch& memory, int) {
-      kernels.add_upsampled_rows(levels[fine], weights[fine], levels[fine + 1], begin, end, memory);
+      stages.add_upsampled_rows(levels[fine], weights[fine], levels[fine + 1], begin, end, memory);
     });
   }
   master.create(size);
@@ -153,15 +153,15 @@ void Symmetry3d::State::add_levels(cv::Mat1f& master) {
   }
 }
 
-void Symmetry3d::State::copy_wanted(RequestedOutputs wants, SaliencyMaps& maps) const {
-  maps.levels.resize(wants.levels ? levels.size() - static_cast<std::size_t>(params.first_level) : 0);
+void Symmetry3d::State::copy_outputs(RequestedOutputs outputs, SaliencyMaps& maps) const {
+  maps.levels.resize(outputs.levels ? levels.size() - static_cast<std::size_t>(params.first_level) : 0);
   for (std::size_t i = 0; i < maps.levels.size(); ++i) {
     const LevelPlanes& level = levels[i + static_cast<std::size_t>(params.first_level)];
     maps.levels[i].create(level.height(), level.width());
     for (int r = 0; r < level.height(); ++r)
       std::copy_n(level.row(LevelPlanes::kScore, r), level.width(), maps.levels[i][r]);
   }
-  if (!wants.normals) return maps.normals.release();
+  if (!outputs.normals) return maps.normals.release();
   maps.normals.create(size);
   for (int r = 0; r < size.height; ++r)
     for (int c = 0; c < size.width; ++c)
@@ -175,7 +175,7 @@ Symmetry3d::Symmetry3d(const Symmetry3dParams& params, WorkerPool& pool, const s
 
 Symmetry3d::~Symmetry3d() = default;
 
-void Symmetry3d::compute(const cv::Mat1f& depth_mm, const Intrinsics& camera, RequestedOutputs wants,
+void Symmetry3d::compute(const cv::Mat1f& depth_mm, const Intrinsics& camera, RequestedOutputs outputs,
                          SaliencyMaps& maps, StageTimes& times) {
   if (!camera.valid())
     throw std::invalid_argument("Symmetry3d: intrinsics must be finite, focal lengths above 0");
@@ -184,14 +184,14 @@ void Symmetry3d::compute(const cv::Mat1f& depth_mm, const Intrinsics& camera, Re
   {
     const StageTimer timer(times, Stage::points);
     state.load_pyramid(depth_mm, camera);
-    state.find_points(wants.normals);
+    state.find_points(outputs.normals);
   }
   {
     const StageTimer timer(times, Stage::symmetry);
     state.find_symmetry();
   }
   const StageTimer timer(times, Stage::master_map);
-  state.copy_wanted(wants, maps);
+  state.copy_outputs(outputs, maps);
   state.add_levels(maps.master);
 }
 

@@ -41,7 +41,7 @@ class Symmetry3d {
 
   /// depth_mm: H x W, 0 = no reading. Overwrites what `maps` holds, reusing its memory, and adds to `times`.
   /// Throws as check_levels().
-  void compute(const cv::Mat1f& depth_mm, const Intrinsics& camera, RequestedOutputs wants,
+  void compute(const cv::Mat1f& depth_mm, const Intrinsics& camera, RequestedOutputs outputs,
                SaliencyMaps& maps, StageTimes& times);
 
  private:

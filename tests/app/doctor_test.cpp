@@ -48,7 +48,7 @@ class DoctorTest : public ProgramTest {
   }
 
   json doctor() const {
-    const Outcome outcome = run_saccade({"doctor", "--json", "--sysfs", in("sys")});
+    const ProgramResult outcome = run_saccade({"doctor", "--json", "--sysfs", in("sys")});
     EXPECT_EQ(outcome.status, 0) << outcome.err;
     return json::parse(outcome.out);
   }
@@ -152,7 +152,7 @@ TEST_F(DoctorTest, ProblemsOfTheInstallationComeFirst) {
 }
 
 TEST_F(DoctorTest, DevicesTellsWhatIsConnectedOrThatNothingIs) {
-  const Outcome none = run_saccade({"devices"});
+  const ProgramResult none = run_saccade({"devices"});
   EXPECT_EQ(none.status, 0) << none.err;
   EXPECT_THAT(none.out, HasSubstr("no sensor is connected"));
   EXPECT_EQ(json::parse(run_saccade({"devices", "--json"}).out)["devices"].size(), 0U);

@@ -23,7 +23,8 @@ class InstallTest : public ProgramTest {
 
 TEST_F(InstallTest, TheInstalledProgramHasItsOwnDriverModules) {
   if (!fs::exists(CMAKE_PROGRAM)) GTEST_SKIP() << "cmake is not where it was when this was built";
-  const Outcome installed = run_program(CMAKE_PROGRAM, {"--install", BUILD_FOLDER, "--prefix", in("prefix")});
+  const ProgramResult installed =
+      run_program(CMAKE_PROGRAM, {"--install", BUILD_FOLDER, "--prefix", in("prefix")});
   ASSERT_EQ(installed.status, 0) << installed.err;
   const std::string program = in("prefix/bin/saccade");
   ::setenv("SACCADE_VIRTUAL_DEVICE", "synthetic:table?size=160x120", 1);
@@ -43,7 +44,7 @@ TEST_F(InstallTest, TheInstalledProgramHasItsOwnDriverModules) {
   EXPECT_EQ(ours, 2U);
 
   EXPECT_THAT(run_program(program, {"devices"}).out, HasSubstr("openni2:saccade-virtual://0"));
-  const Outcome run =
+  const ProgramResult run =
       run_program(program, {"run", "openni2", "--frames", "3", "--out", in("out"), "--dump", "none"});
   ASSERT_EQ(run.status, 0) << run.err;
   const std::string fixations = text("out/fixations.jsonl");

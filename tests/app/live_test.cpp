@@ -50,7 +50,8 @@ class LiveTest : public ProgramTest {
 
 TEST_F(LiveTest, RunsSoManyFramesAsAskedAndTellsTheLatency) {
   plug_in("");
-  const Outcome outcome = run_saccade({"run", "openni2", "--frames", "20", "--out", in("out"), "--json"});
+  const ProgramResult outcome =
+      run_saccade({"run", "openni2", "--frames", "20", "--out", in("out"), "--json"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   const json summary = json::parse(outcome.out);
   EXPECT_EQ(summary["ledger"]["processed"], 20);
@@ -65,7 +66,7 @@ TEST_F(LiveTest, RunsSoManyFramesAsAskedAndTellsTheLatency) {
 
 TEST_F(LiveTest, SlowProcessingDropsFramesInsteadOfFallingBehind) {
   plug_in("&rate=500");
-  const Outcome outcome =
+  const ProgramResult outcome =
       run_saccade({"run", "openni2", "--mode", "80x60", "--frames", "15", "--out", in("out"), "--dump",
                    "none", "--simd", "scalar", "--workers", "1", "--kernel", "9", "--json"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
@@ -80,7 +81,7 @@ TEST_F(LiveTest, SlowProcessingDropsFramesInsteadOfFallingBehind) {
 TEST_F(LiveTest, ALostDeviceIsWaitedForAndCounted) {
   for (const std::string loss : {"event", "state"}) {
     plug_in("&loss_after=8&back_after_ms=50&loss=" + loss);
-    const Outcome outcome =
+    const ProgramResult outcome =
         run_saccade({"run", "openni2", "--frames", "20", "--out", in("out"), "--dump", "none", "--json"});
     ASSERT_EQ(outcome.status, 0) << outcome.err;
     EXPECT_THAT(outcome.err, HasSubstr("is lost")) << "it is told";
@@ -95,7 +96,7 @@ TEST_F(LiveTest, ALostDeviceIsWaitedForAndCounted) {
 
 TEST_F(LiveTest, ASilentDeviceIsNoticed) {
   plug_in("&loss_after=5&loss=silent&back_after_ms=2300");
-  const Outcome outcome =
+  const ProgramResult outcome =
       run_saccade({"run", "openni2", "--frames", "8", "--out", in("out"), "--dump", "none", "--json"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_THAT(outcome.err, HasSubstr("no depth for 2 s"));
@@ -104,8 +105,8 @@ TEST_F(LiveTest, ASilentDeviceIsNoticed) {
 
 TEST_F(LiveTest, WithoutReconnectLosingTheDeviceIsAnError) {
   plug_in("&loss_after=8&loss=event&back_after_ms=50");
-  const Outcome outcome = run_saccade({"run", "openni2", "--mode", "160x120", "--frames", "20", "--out",
-                                       in("out"), "--dump", "none", "--no-reconnect"});
+  const ProgramResult outcome = run_saccade({"run", "openni2", "--mode", "160x120", "--frames", "20", "--out",
+                                             in("out"), "--dump", "none", "--no-reconnect"});
   EXPECT_EQ(outcome.status, 1);
   EXPECT_TRUE(outcome.one_error_line());
   EXPECT_EQ(manifest()["status"], "failed");
@@ -114,7 +115,7 @@ TEST_F(LiveTest, WithoutReconnectLosingTheDeviceIsAnError) {
 
 TEST_F(LiveTest, ADeviceMayComeLate) {
   plug_in("&late_ms=300");
-  const Outcome outcome = run_saccade(
+  const ProgramResult outcome = run_saccade(
       {"run", "openni2", "--mode", "160x120", "--frames", "3", "--out", in("out"), "--dump", "none"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_EQ(manifest()["intrinsics"]["from"], "sensor") << "though it was not known at the start";
@@ -128,7 +129,8 @@ TEST_F(LiveTest, ADeviceNamedByARelativePathIsSeenFromWhereTheProgramWasStarted)
   ::setenv("SACCADE_VIRTUAL_DEVICE", "a.oni", 1);
   const auto before = std::filesystem::current_path();
   std::filesystem::current_path(folder_);
-  const Outcome outcome = run_saccade({"run", "openni2", "--frames", "2", "--out", "out", "--dump", "none"});
+  const ProgramResult outcome =
+      run_saccade({"run", "openni2", "--frames", "2", "--out", "out", "--dump", "none"});
   std::filesystem::current_path(before);
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_EQ(lines("out/fixations.jsonl"), 2) << "in the same folder";
@@ -137,7 +139,7 @@ TEST_F(LiveTest, ADeviceNamedByARelativePathIsSeenFromWhereTheProgramWasStarted)
 TEST_F(LiveTest, NoDeviceIsOneLine) {
   ::unsetenv("SACCADE_VIRTUAL_DEVICE");
   for (const char* wait : {"0", "0.3"}) {
-    const Outcome outcome = run_saccade({"run", "openni2", "--wait", wait, "--out", in("out")});
+    const ProgramResult outcome = run_saccade({"run", "openni2", "--wait", wait, "--out", in("out")});
     EXPECT_EQ(outcome.status, 3);
     EXPECT_TRUE(outcome.one_error_line());
     EXPECT_THAT(outcome.err, HasSubstr("saccade doctor"));
@@ -146,7 +148,7 @@ TEST_F(LiveTest, NoDeviceIsOneLine) {
 
 TEST_F(LiveTest, ShortFramesAreRejectedAndNamed) {
   plug_in("&short_frame=4");
-  const Outcome outcome =
+  const ProgramResult outcome =
       run_saccade({"run", "openni2", "--frames", "12", "--out", in("out"), "--dump", "none"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   const json report = manifest();
@@ -157,8 +159,9 @@ TEST_F(LiveTest, ShortFramesAreRejectedAndNamed) {
 
 TEST_F(LiveTest, SettingsThatDoNothingAreTold) {
   plug_in("&ignores_settings=1");
-  const Outcome outcome = run_saccade({"run", "openni2", "--mirror", "--exposure", "20", "--white-balance",
-                                       "fixed", "--frames", "2", "--out", in("out"), "--dump", "none"});
+  const ProgramResult outcome =
+      run_saccade({"run", "openni2", "--mirror", "--exposure", "20", "--white-balance", "fixed", "--frames",
+                   "2", "--out", in("out"), "--dump", "none"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   for (const char* setting : {"mirroring", "registration", "automatic exposure", "exposure was set to 20",
                               "automatic white balance"})
@@ -168,8 +171,8 @@ TEST_F(LiveTest, SettingsThatDoNothingAreTold) {
 
 TEST_F(LiveTest, SettingsThatDoNothingAreToldOfADeviceThatComesLateOrAgainToo) {
   plug_in("&ignores_settings=1&late_ms=300&loss_after=4&back_after_ms=50");
-  const Outcome outcome = run_saccade({"run", "openni2", "--mode", "160x120", "--mirror", "--frames", "12",
-                                       "--out", in("out"), "--dump", "none", "--json"});
+  const ProgramResult outcome = run_saccade({"run", "openni2", "--mode", "160x120", "--mirror", "--frames",
+                                             "12", "--out", in("out"), "--dump", "none", "--json"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   const std::string what = "mirroring was turned on";
   const auto place = outcome.err.find(what);
@@ -186,8 +189,8 @@ TEST_F(LiveTest, InterruptedAtAnyMomentItEndsSoonWithWholeFiles) {
     std::filesystem::remove_all(in("out"));
     const auto begin = std::chrono::steady_clock::now();
     const int after_ms = 5 + 83 * k;
-    const Outcome outcome = run_saccade({"run", "openni2", "--out", in("out"), "--dump", "maps"}, after_ms,
-                                        in("out/manifest.json"), k % 2 ? SIGTERM : SIGINT);
+    const ProgramResult outcome = run_saccade({"run", "openni2", "--out", in("out"), "--dump", "maps"},
+                                              after_ms, in("out/manifest.json"), k % 2 ? SIGTERM : SIGINT);
     EXPECT_EQ(outcome.status, 0) << outcome.err;
     EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(20)) << "it does not hang";
     EXPECT_EQ(manifest()["status"], "interrupted");
@@ -197,7 +200,7 @@ TEST_F(LiveTest, InterruptedAtAnyMomentItEndsSoonWithWholeFiles) {
 
 TEST_F(LiveTest, RecordsEveryFrameAcrossALoss) {
   plug_in("&loss_after=15&back_after_ms=100");
-  const Outcome outcome = run_saccade({"record", "openni2", in("a.oni"), "--frames", "30", "--json"});
+  const ProgramResult outcome = run_saccade({"record", "openni2", in("a.oni"), "--frames", "30", "--json"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   const json summary = json::parse(outcome.out);
   EXPECT_EQ(summary["frames"], 30);
@@ -212,7 +215,7 @@ TEST_F(LiveTest, RecordsEveryFrameAcrossALoss) {
 
 TEST_F(LiveTest, FramesThatCannotBeRecordedAreCountedInOneLine) {
   plug_in("&short_frame=3");
-  const Outcome outcome =
+  const ProgramResult outcome =
       run_saccade({"record", "openni2", in("a.oni"), "--mode", "160x120", "--frames", "10", "--json"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_GE(json::parse(outcome.out)["rejected"], 2);
@@ -222,7 +225,7 @@ TEST_F(LiveTest, FramesThatCannotBeRecordedAreCountedInOneLine) {
 
 TEST_F(LiveTest, RecordingEndsWithAWholeFileWhenTheDeviceIsGone) {
   plug_in("&loss_after=10");
-  const Outcome outcome = run_saccade({"record", "openni2", in("a.oni"), "--no-reconnect"});
+  const ProgramResult outcome = run_saccade({"record", "openni2", in("a.oni"), "--no-reconnect"});
   EXPECT_EQ(outcome.status, 1);
   EXPECT_THAT(outcome.err, HasSubstr("closed with the"));
   Recording recording{std::filesystem::path(in("a.oni"))};

@@ -27,7 +27,7 @@ class OniCommandTest : public ProgramTest {
 };
 
 TEST_F(OniCommandTest, InfoTellsTheStreams) {
-  const Outcome outcome = run_saccade({"oni", "info", in("a.oni"), "--json"});
+  const ProgramResult outcome = run_saccade({"oni", "info", in("a.oni"), "--json"});
   ASSERT_EQ(outcome.status, 0);
   const json streams = json::parse(outcome.out)["streams"];
   ASSERT_EQ(streams.size(), 2u);
@@ -40,14 +40,14 @@ TEST_F(OniCommandTest, InfoTellsTheStreams) {
   EXPECT_NEAR(streams[0]["measured_rate_hz"].get<double>(), 30, 0.01);
   EXPECT_NEAR(streams[0]["intrinsics"]["fx"].get<double>(), 52.5, 1e-9);
   EXPECT_EQ(streams[1]["codec"], "JPEG");
-  const Outcome text = run_saccade({"oni", "info", in("a.oni")});
+  const ProgramResult text = run_saccade({"oni", "info", in("a.oni")});
   EXPECT_THAT(text.out, HasSubstr("depth  16zT 64 x 48"));
 }
 
 TEST_F(OniCommandTest, CheckGivesPositionsAndItsStatus) {
   EXPECT_EQ(run_saccade({"oni", "check", in("a.oni")}).status, 0);
   cut("cut.oni", 2000);
-  const Outcome outcome = run_saccade({"oni", "check", in("cut.oni"), "--json"});
+  const ProgramResult outcome = run_saccade({"oni", "check", in("cut.oni"), "--json"});
   EXPECT_EQ(outcome.status, 3);
   EXPECT_TRUE(outcome.one_error_line());
   const json result = json::parse(outcome.out);
@@ -62,7 +62,7 @@ TEST_F(OniCommandTest, CheckGivesPositionsAndItsStatus) {
 TEST_F(OniCommandTest, RepairMakesASoundFileBesideTheOriginal) {
   cut("cut.oni", 2000);
   const auto before = read_file(in("cut.oni"));
-  const Outcome outcome = run_saccade({"oni", "repair", in("cut.oni"), "--json"});
+  const ProgramResult outcome = run_saccade({"oni", "repair", in("cut.oni"), "--json"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_EQ(json::parse(outcome.out)["repaired"], in("cut.repaired.oni"));
   EXPECT_EQ(run_saccade({"oni", "check", in("cut.repaired.oni")}).status, 0);
@@ -77,7 +77,7 @@ TEST_F(OniCommandTest, WhatIsNoRecordingIsOneLineAndStatus3) {
   write_file(in("text.oni"), std::string_view("not a recording, but long enough to be one"));
   for (const std::string command : {"info", "check", "repair"})
     for (const std::string& file : {in("text.oni"), in("absent.oni"), folder_.string()}) {
-      const Outcome outcome = run_saccade({"oni", command, file});
+      const ProgramResult outcome = run_saccade({"oni", command, file});
       EXPECT_EQ(outcome.status, 3) << command << " " << file;
       EXPECT_TRUE(outcome.one_error_line());
     }

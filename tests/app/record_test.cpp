@@ -47,7 +47,7 @@ class RecordTest : public ProgramTest {
 };
 
 TEST_F(RecordTest, WritesSoManyFramesAsAskedAndTellsIt) {
-  const Outcome outcome = run_saccade({"record", kSource, in("a.oni"), "--frames", "25", "--json"});
+  const ProgramResult outcome = run_saccade({"record", kSource, in("a.oni"), "--frames", "25", "--json"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   const auto json = nlohmann::json::parse(outcome.out);
   EXPECT_EQ(json["frames"], 25);
@@ -69,7 +69,7 @@ TEST_F(RecordTest, DurationIsRecordedTime) {
 
 TEST_F(RecordTest, AnExistingFileIsKeptWithoutForce) {
   ASSERT_EQ(run_saccade({"record", kSource, in("a.oni"), "--frames", "3"}).status, 0);
-  const Outcome again = run_saccade({"record", kSource, in("a.oni"), "--frames", "5"});
+  const ProgramResult again = run_saccade({"record", kSource, in("a.oni"), "--frames", "5"});
   EXPECT_EQ(again.status, 2);
   EXPECT_TRUE(again.one_error_line());
   EXPECT_EQ(expect_frames_of_source(in("a.oni")), 3);
@@ -79,7 +79,7 @@ TEST_F(RecordTest, AnExistingFileIsKeptWithoutForce) {
 
 TEST_F(RecordTest, CtrlCAndTermCloseTheFile) {
   for (const int signal : {SIGINT, SIGTERM}) {
-    const Outcome outcome =
+    const ProgramResult outcome =
         run_saccade({"record", kSource, in("a.oni"), "--force"}, 150, in("a.oni"), signal);
     ASSERT_EQ(outcome.status, 0) << outcome.err;
     EXPECT_THAT(outcome.out, HasSubstr("interrupted"));
@@ -91,7 +91,8 @@ TEST_F(RecordTest, CtrlCAndTermCloseTheFile) {
 
 TEST_F(RecordTest, KilledAtAnyMomentTheFramesAreThere) {
   for (int k = 0; k < 20; ++k) {
-    const Outcome outcome = run_saccade({"record", kSource, in("k.oni")}, 7 + 13 * k, in("k.oni"), SIGKILL);
+    const ProgramResult outcome =
+        run_saccade({"record", kSource, in("k.oni")}, 7 + 13 * k, in("k.oni"), SIGKILL);
     ASSERT_EQ(outcome.status, -SIGKILL);
     if (std::filesystem::file_size(in("k.oni")) < 24) {
       std::filesystem::remove(in("k.oni"));
@@ -114,7 +115,7 @@ TEST_F(RecordTest, AFullDiskLeavesAClosedFileOfAllFramesBefore) {
     rlimit small = before;
     small.rlim_cur = limit;
     ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &small), 0);
-    const Outcome outcome = run_saccade({"record", kSource, in("full.oni"), "--force"});
+    const ProgramResult outcome = run_saccade({"record", kSource, in("full.oni"), "--force"});
     ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &before), 0);
     EXPECT_EQ(outcome.status, 1);
     EXPECT_TRUE(outcome.one_error_line());
@@ -130,7 +131,7 @@ TEST_F(RecordTest, AFullFileSystemLeavesAClosedFileOfAllFramesBefore) {
   std::filesystem::create_directory(disk);
   if (::mount("tmpfs", disk.c_str(), "tmpfs", 0, "size=200k") != 0)
     GTEST_SKIP() << "no file system may be mounted here";
-  const Outcome outcome = run_saccade({"record", kSource, disk + "/full.oni"});
+  const ProgramResult outcome = run_saccade({"record", kSource, disk + "/full.oni"});
   const std::int64_t frames = expect_frames_of_source(disk + "/full.oni");
   const bool is_sound = sound(disk + "/full.oni");
   ASSERT_EQ(::umount2(disk.c_str(), MNT_DETACH), 0);
@@ -147,7 +148,7 @@ TEST_F(RecordTest, BadArgumentsAreUsageErrorsAndLeaveNoFile) {
        {std::vector<std::string>{"--frames", "-1"}, {"--depth-codec", "zip"}, {"--duration", "soon"}}) {
     std::vector<std::string> arguments = {"record", kSource, in("x.oni")};
     arguments.insert(arguments.end(), bad.begin(), bad.end());
-    const Outcome outcome = run_saccade(arguments);
+    const ProgramResult outcome = run_saccade(arguments);
     EXPECT_EQ(outcome.status, 2);
     EXPECT_TRUE(outcome.one_error_line());
   }

@@ -23,7 +23,7 @@ class RunErrorsTest : public ProgramTest {
               const std::string& source = kScene, const std::string& out = "out") const {
     std::vector<std::string> arguments = {"run", source, "--out", in(out)};
     arguments.insert(arguments.end(), more.begin(), more.end());
-    const Outcome outcome = run_saccade(arguments);
+    const ProgramResult outcome = run_saccade(arguments);
     EXPECT_EQ(outcome.status, status) << part << ": " << outcome.err;
     EXPECT_TRUE(outcome.one_error_line());
     EXPECT_THAT(outcome.err, HasSubstr(part));
@@ -69,7 +69,7 @@ TEST_F(RunErrorsTest, CommandLine) {
                                                     {"run", kScene},
                                                     {"run", kScene, "--out", in("o"), "--kernal", "9"},
                                                     {"run", kScene, "--out", in("o"), "--kernel"}}) {
-    const Outcome outcome = run_saccade(arguments);
+    const ProgramResult outcome = run_saccade(arguments);
     EXPECT_EQ(outcome.status, kUsage) << outcome.err;
     EXPECT_TRUE(outcome.one_error_line());
   }
@@ -104,7 +104,7 @@ TEST_F(RunErrorsTest, Sources) {
 TEST_F(RunErrorsTest, NoFrameOfTheSourceIsUsable) {
   put("0000_depth.png", cv::Mat1w(160, 160, std::uint16_t{800}));
   put("0000_rgb.png", cv::Mat3b(80, 80, cv::Vec3b()));
-  const Outcome outcome =
+  const ProgramResult outcome =
       run_saccade({"run", in("data"), "--out", in("out"), "--intrinsics", "500,500,80,80"});
   EXPECT_EQ(outcome.status, kUnreadable);
   EXPECT_THAT(outcome.err, HasSubstr("0000_rgb.png: 80x80, but the depth is 160x160"));
@@ -116,7 +116,7 @@ TEST_F(RunErrorsTest, OutputThatCannotBeWritten) {
   write_file(folder_ / "file", std::string_view("x"));
   expect(kFailed, "file", levels, kScene, "file");
   expect(kFailed, "file/deeper", levels, kScene, "file/deeper");
-  const Outcome device = run_saccade({"run", kScene, "--out", "/dev/full", "--levels", "0..2"});
+  const ProgramResult device = run_saccade({"run", kScene, "--out", "/dev/full", "--levels", "0..2"});
   EXPECT_EQ(device.status, kFailed);
   EXPECT_TRUE(device.one_error_line());
 

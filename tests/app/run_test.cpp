@@ -24,11 +24,11 @@ const std::string kScene = "synthetic:table?seed=3&noise=kinect&size=160x120&fra
 
 class RunTest : public ProgramTest {
  protected:
-  Outcome run(const std::string& out, std::vector<std::string> more = {},
-              const std::string& source = kScene) const {
+  ProgramResult run(const std::string& out, std::vector<std::string> more = {},
+                    const std::string& source = kScene) const {
     std::vector<std::string> arguments = {"run", source, "--out", in(out), "--levels", "0..2"};
     arguments.insert(arguments.end(), more.begin(), more.end());
-    const Outcome outcome = run_saccade(arguments);
+    const ProgramResult outcome = run_saccade(arguments);
     EXPECT_EQ(outcome.status, 0) << outcome.err;
     return outcome;
   }
@@ -49,7 +49,7 @@ class RunTest : public ProgramTest {
 };
 
 TEST_F(RunTest, WritesMapsOverlaysFixationsAndManifest) {
-  const Outcome outcome = run("out");
+  const ProgramResult outcome = run("out");
   EXPECT_THAT(outcome.out, ::testing::HasSubstr("6 frames"));
   for (int i = 0; i < 6; ++i)
     for (const char* ending : {"saliency.tiff", "saliency.png", "overlay.png"})
@@ -142,7 +142,7 @@ TEST_F(RunTest, StartEveryAndFramesKeepTheSourcesIndices) {
 }
 
 TEST_F(RunTest, JsonIsAllThatIsOnStandardOutput) {
-  const Outcome outcome = run("out", {"--json", "--frames", "2"});
+  const ProgramResult outcome = run("out", {"--json", "--frames", "2"});
   const json summary = json::parse(outcome.out);
   EXPECT_EQ(summary["ledger"]["processed"], 2);
   EXPECT_EQ(summary["status"], "done");
@@ -158,8 +158,9 @@ TEST_F(RunTest, ConfigFileIsReadAndTheCommandLineComesOverIt) {
 }
 
 TEST_F(RunTest, PaperConfigRunsTheNetwork) {
-  const Outcome outcome = run_saccade({"run", "synthetic:table?frames=1", "--out", in("out"), "--config",
-                                       SACCADE_SOURCE_DIR "/config/paper.toml", "--dump", "none"});
+  const ProgramResult outcome =
+      run_saccade({"run", "synthetic:table?frames=1", "--out", in("out"), "--config",
+                   SACCADE_SOURCE_DIR "/config/paper.toml", "--dump", "none"});
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   const json frame = lines("out/fixations.jsonl")[0];
   ASSERT_FALSE(frame["fixations"].empty());
@@ -171,7 +172,7 @@ TEST_F(RunTest, UnusableFramesAreRejectedAndTheRestIsProcessed) {
     write_file(folder_ / ("000" + std::to_string(i) + "_depth.png"),
                encode_png(cv::Mat1w(64, 64, std::uint16_t{900})));
   write_file(folder_ / "0002_depth.png", std::string_view("not a picture"));
-  const Outcome outcome = run("out", {}, folder_.string());
+  const ProgramResult outcome = run("out", {}, folder_.string());
   EXPECT_THAT(outcome.err,
               ::testing::HasSubstr(
                   "1 frame rejected (manifest.json lists them), the first, frame 2: 0002_depth.png"));
@@ -182,7 +183,8 @@ TEST_F(RunTest, UnusableFramesAreRejectedAndTheRestIsProcessed) {
 }
 
 TEST_F(RunTest, DefaultLevelsAreCutToWhatTheImageHasRoomFor) {
-  const Outcome outcome = run_saccade({"run", "synthetic:table?frames=1&size=40x30", "--out", in("out")});
+  const ProgramResult outcome =
+      run_saccade({"run", "synthetic:table?frames=1&size=40x30", "--out", in("out")});
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_THAT(outcome.err, ::testing::HasSubstr("40x30 images have room for levels 0..2 only"));
   EXPECT_EQ(json::parse(text("out/manifest.json"))["settings"]["levels"], "0..2");
@@ -203,7 +205,7 @@ TEST_F(RunTest, DepthWithoutAnyReadingGivesAZeroMapAndNoFixations) {
 // object.
 TEST_F(RunTest, TheBundledRecordingsObjectsAreFoundOneByOne) {
   const std::string recordings = SACCADE_SOURCE_DIR "/recordings/";
-  const Outcome outcome =
+  const ProgramResult outcome =
       run_saccade({"run", recordings + "table.oni", "--out", in("out"), "--dump", "none"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   const auto frames = lines("out/fixations.jsonl");
@@ -227,7 +229,7 @@ TEST_F(RunTest, TheBundledRecordingsObjectsAreFoundOneByOne) {
 }
 
 TEST_F(RunTest, BenchTellsWhatThisMachineSustains) {
-  const Outcome outcome =
+  const ProgramResult outcome =
       run_saccade({"bench", "--json", "--seconds", "0", "--kernel", "5", "--levels", "0..1"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   const json report = json::parse(outcome.out);
@@ -241,7 +243,7 @@ TEST_F(RunTest, BenchTellsWhatThisMachineSustains) {
 }
 
 TEST_F(RunTest, InterruptingLeavesWholeFilesAndSaysSo) {
-  const Outcome outcome =
+  const ProgramResult outcome =
       run_saccade({"run", "synthetic:table?noise=kinect&frames=100000", "--out", in("out")}, 150,
                   folder_ / "out/000000_overlay.png");
   EXPECT_EQ(outcome.status, 0) << outcome.err;

@@ -35,13 +35,13 @@ class EvalTest : public ProgramTest {
     return arguments;
   }
 
-  Outcome eval(const std::string& out, const std::vector<std::string>& more = {},
-               const std::string& source = kScenes) const {
+  ProgramResult eval(const std::string& out, const std::vector<std::string>& more = {},
+                     const std::string& source = kScenes) const {
     return run_saccade(command(source, in(out), more));
   }
 
   void expect_error(int status, const std::string& part, const std::vector<std::string>& arguments) const {
-    const Outcome outcome = run_saccade(arguments);
+    const ProgramResult outcome = run_saccade(arguments);
     EXPECT_EQ(outcome.status, status) << outcome.err;
     EXPECT_TRUE(outcome.one_error_line());
     EXPECT_THAT(outcome.err, HasSubstr(part));
@@ -81,7 +81,7 @@ class EvalTest : public ProgramTest {
 };
 
 TEST_F(EvalTest, WritesAllFiles) {
-  const Outcome outcome = eval("out");
+  const ProgramResult outcome = eval("out");
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_THAT(outcome.out, HasSubstr("symmetry3d, k = 15, wta"));
   EXPECT_THAT(outcome.out, HasSubstr("7 images"));
@@ -112,7 +112,7 @@ TEST_F(EvalTest, GoesOnAfterACut) {
   fs::create_directories(folder_ / "cut");
   write_file(folder_ / "cut/results.jsonl",
              all[0] + "\n" + all[1] + "\n" + all[2] + "\n" + all[3].substr(0, all[3].size() / 2));
-  const Outcome outcome = eval("cut");
+  const ProgramResult outcome = eval("cut");
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_THAT(outcome.err, HasSubstr("2 images are there already"));
   EXPECT_EQ(lines("cut/results.jsonl")[2], all[2]) << "not evaluated again";
@@ -121,7 +121,8 @@ TEST_F(EvalTest, GoesOnAfterACut) {
 
 TEST_F(EvalTest, GoesOnAfterAnInterruption) {
   const std::string many = "synthetic:table?seed=3&size=160x120&frames=120&camera=orbit&rate=3";
-  const Outcome stopped = run_saccade(command(many, in("stopped")), 0, folder_ / "stopped/results.jsonl");
+  const ProgramResult stopped =
+      run_saccade(command(many, in("stopped")), 0, folder_ / "stopped/results.jsonl");
   EXPECT_EQ(stopped.status, kFailed);
   EXPECT_THAT(stopped.err, HasSubstr("interrupted"));
   EXPECT_FALSE(fs::exists(folder_ / "stopped/report.json"));
@@ -136,7 +137,7 @@ TEST_F(EvalTest, MergedShardsAreTheWhole) {
     ASSERT_EQ(eval(std::string("part") + i, {"--shard", std::string(i) + "/3"}).status, 0);
   EXPECT_EQ(report("part1")["images"], 3);
   EXPECT_EQ(report("part3")["shard"], "3/3");
-  const Outcome outcome = run_saccade(
+  const ProgramResult outcome = run_saccade(
       {"eval", "--merge", in("part3"), in("part1"), in("part2"), "--out", in("merged"), "--quiet"});
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_EQ(outcome.out, "");
@@ -153,7 +154,7 @@ TEST_F(EvalTest, FramesWhoseLabelsDoNotFitAreNamedAndLeftOut) {
   for (const char* name : {"0000", "0001", "0002"}) put(std::string(name) + "_depth.png", depth);
   put("0000_label.png", labels);
   put("0001_label.png", labels(cv::Rect(0, 0, 80, 60)));
-  const Outcome outcome = eval("out", {}, in("data"));
+  const ProgramResult outcome = eval("out", {}, in("data"));
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_THAT(outcome.err, HasSubstr("frame 1 (0001) left out: 0001_label.png: 80x60"));
   EXPECT_THAT(outcome.err, HasSubstr("frame 2 (0002) left out: it has no label image"));
@@ -164,7 +165,7 @@ TEST_F(EvalTest, FramesWhoseLabelsDoNotFitAreNamedAndLeftOut) {
 }
 
 TEST_F(EvalTest, SelectsFramesAndPrintsJson) {
-  const Outcome outcome = eval("out", {"--start", "1", "--every", "2", "--frames", "2", "--json"});
+  const ProgramResult outcome = eval("out", {"--start", "1", "--every", "2", "--frames", "2", "--json"});
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   const json summary = json::parse(outcome.out);
   EXPECT_EQ(summary["images"], 2);
@@ -196,7 +197,7 @@ TEST_F(EvalTest, Errors) {
 
 TEST_F(EvalTest, NoLabelsAtAll) {
   put("0000_depth.png", cv::Mat1w(120, 160, std::uint16_t{1000}));
-  const Outcome outcome = eval("out", {"--log-level", "error"}, in("data"));
+  const ProgramResult outcome = eval("out", {"--log-level", "error"}, in("data"));
   EXPECT_EQ(outcome.status, kUnreadable);
   EXPECT_THAT(outcome.err, HasSubstr("none of 1 images could be evaluated; the first: it has no label"));
   EXPECT_TRUE(outcome.one_error_line());

@@ -4,21 +4,21 @@
 
 #include <gtest/gtest.h>
 
-#include "saliency/kernels.hpp"
 #include "saliency/reference.hpp"
+#include "saliency/simd/simd_stages.hpp"
 #include "shapes.hpp"
 
 namespace saccade::test {
 namespace {
 
-// The depth of level 1 as the kernels compute it, in bands of `rows`.
+// The depth of level 1 as the stages compute it, in bands of `rows`.
 cv::Mat1f halved(const cv::Mat1f& depth, const std::string& simd, int rows) {
-  const Kernels& kernels = choose_kernels(simd);
+  const SimdStages& stages = choose_simd_stages(simd);
   LevelPlanes full(depth.size(), 7), half(level_size(depth.size(), 1), 7);
   RowScratch scratch(depth.cols);
-  kernels.load_rows(depth, full, 0, depth.rows);
+  stages.load_rows(depth, full, 0, depth.rows);
   for (int r = 0; r < half.height(); r += rows)
-    kernels.halve_rows(full, half, r, std::min(r + rows, half.height()), scratch);
+    stages.halve_rows(full, half, r, std::min(r + rows, half.height()), scratch);
   cv::Mat1f result(half.height(), half.width());
   for (int r = 0; r < result.rows; ++r) std::copy_n(half.row(LevelPlanes::kDepth, r), result.cols, result[r]);
   return result;
@@ -67,14 +67,14 @@ TEST(Pyramid, TellsWhatDepthsAreLike) {
   depth(7, 49) = 4321;
   for (const std::string& simd : runnable_simd()) {
     LevelPlanes level(depth.size(), 7);
-    const Kernels& kernels = choose_kernels(simd);
-    EXPECT_EQ(kernels.load_rows(depth, level, 0, 20).largest_mm, 4321);
-    EXPECT_LT(kernels.load_rows(depth, level, 20, 40).largest_mm, 4321);
-    EXPECT_TRUE(kernels.load_rows(depth, level, 0, 40).multiples_of_eighths);
+    const SimdStages& stages = choose_simd_stages(simd);
+    EXPECT_EQ(stages.load_rows(depth, level, 0, 20).largest_mm, 4321);
+    EXPECT_LT(stages.load_rows(depth, level, 20, 40).largest_mm, 4321);
+    EXPECT_TRUE(stages.load_rows(depth, level, 0, 40).multiples_of_eighths);
     cv::Mat1f other = depth.clone();
     other(39, 49) = 1000.2f;
-    EXPECT_TRUE(kernels.load_rows(other, level, 0, 39).multiples_of_eighths);
-    EXPECT_FALSE(kernels.load_rows(other, level, 39, 40).multiples_of_eighths);
+    EXPECT_TRUE(stages.load_rows(other, level, 0, 39).multiples_of_eighths);
+    EXPECT_FALSE(stages.load_rows(other, level, 39, 40).multiples_of_eighths);
   }
 }
 

@@ -39,12 +39,12 @@ Symmetry3dParams three_levels() {
 }
 
 SaliencyMaps compute(const cv::Mat1f& depth, const Symmetry3dParams& params, int workers = 1,
-                     const std::string& simd = "auto", RequestedOutputs wants = {}) {
+                     const std::string& simd = "auto", RequestedOutputs outputs = {}) {
   WorkerPool pool(workers);
   Symmetry3d op(params, pool, simd);
   SaliencyMaps maps;
   StageTimes times;
-  op.compute(depth, camera_for(depth.size()), wants, maps, times);
+  op.compute(depth, camera_for(depth.size()), outputs, maps, times);
   return maps;
 }
 
@@ -90,12 +90,12 @@ TEST(Symmetry3d, AllocatesNothingAfterTheFirstFrame) {
   Symmetry3d op(three_levels(), pool);
   SaliencyMaps maps;
   StageTimes times;
-  const RequestedOutputs wants{.levels = true, .normals = true};
-  op.compute(first, camera_for(first.size()), wants, maps, times);
+  const RequestedOutputs outputs{.levels = true, .normals = true};
+  op.compute(first, camera_for(first.size()), outputs, maps, times);
   const uchar* master = maps.master.data;
   const long before = allocations;
   const std::size_t bytes_before = mallinfo2().uordblks + mallinfo2().hblkhd;
-  op.compute(second, camera_for(second.size()), wants, maps, times);
+  op.compute(second, camera_for(second.size()), outputs, maps, times);
   EXPECT_EQ(allocations, before);
   EXPECT_EQ(mallinfo2().uordblks + mallinfo2().hblkhd, bytes_before);
   EXPECT_EQ(maps.master.data, master);

@@ -28,19 +28,19 @@ bool has_ended(pid_t child) {
 
 }  // namespace
 
-::testing::AssertionResult Outcome::one_error_line() const {
+::testing::AssertionResult ProgramResult::one_error_line() const {
   const auto lines = std::count(err.begin(), err.end(), '\n');
   if (lines == 1 && err.starts_with("saccade: ")) return ::testing::AssertionSuccess();
   return ::testing::AssertionFailure() << "not one line: " << err;
 }
 
-Outcome run_saccade(const std::vector<std::string>& arguments, int interrupt_after_ms,
-                    const fs::path& wait_for, int signal) {
+ProgramResult run_saccade(const std::vector<std::string>& arguments, int interrupt_after_ms,
+                          const fs::path& wait_for, int signal) {
   return run_program(SACCADE_PROGRAM, arguments, interrupt_after_ms, wait_for, signal);
 }
 
-Outcome run_program(const std::string& program, const std::vector<std::string>& arguments,
-                    int interrupt_after_ms, const fs::path& wait_for, int signal) {
+ProgramResult run_program(const std::string& program, const std::vector<std::string>& arguments,
+                          int interrupt_after_ms, const fs::path& wait_for, int signal) {
   const fs::path base = fs::path(::testing::TempDir()) / ("saccade_" + std::to_string(::getpid()));
   const std::string out = base.string() + ".out", err = base.string() + ".err";
   std::vector<char*> argv = {const_cast<char*>(program.c_str())};
@@ -63,8 +63,8 @@ Outcome run_program(const std::string& program, const std::vector<std::string>& 
   }
   int status = 0;
   ::waitpid(child, &status, 0);
-  Outcome outcome{WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status), read_text(out),
-                  read_text(err)};
+  ProgramResult outcome{WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status), read_text(out),
+                        read_text(err)};
   fs::remove(out);
   fs::remove(err);
   return outcome;

@@ -10,7 +10,8 @@
 
 namespace saccade {
 
-struct Outcome {
+/// How a program ended and what it wrote.
+struct ProgramResult {
   int status = -1;  ///< exit status; -signal if it was killed
   std::string out, err;
 
@@ -19,13 +20,14 @@ struct Outcome {
 };
 
 /// Runs the program under test. With interrupt_after_ms >= 0 it gets `signal` (SIGINT) once the file
-/// `wait_for` exists and so many milliseconds have passed.
-Outcome run_saccade(const std::vector<std::string>& arguments, int interrupt_after_ms = -1,
-                    const std::filesystem::path& wait_for = {}, int signal = 2);
+/// `wait_for` exists and that time has passed.
+ProgramResult run_saccade(const std::vector<std::string>& arguments, int interrupt_after_ms = -1,
+                          const std::filesystem::path& wait_for = {}, int signal = 2);
 
 /// Likewise any program; finds it in PATH if it is a name alone.
-Outcome run_program(const std::string& program, const std::vector<std::string>& arguments,
-                    int interrupt_after_ms = -1, const std::filesystem::path& wait_for = {}, int signal = 2);
+ProgramResult run_program(const std::string& program, const std::vector<std::string>& arguments,
+                          int interrupt_after_ms = -1, const std::filesystem::path& wait_for = {},
+                          int signal = 2);
 
 /// A test that runs the program in a folder of its own.
 class ProgramTest : public FolderTest {

@@ -1,4 +1,4 @@
-#include "saliency/kernels.hpp"
+#include "saliency/simd/simd_stages.hpp"
 
 #include <algorithm>
 #include <array>
@@ -13,20 +13,20 @@
 #define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
 #define HWY_COMPILE_ALL_ATTAINABLE
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "saliency/kernels.cpp"
+#define HWY_TARGET_INCLUDE "saliency/simd/simd_stages.cpp"
 #include <hwy/foreach_target.h>  // includes this file again for each instruction set
 #include <hwy/highway.h>
 
-#include "saliency/master_map-inl.hpp"
-#include "saliency/normals-inl.hpp"
-#include "saliency/pyramid-inl.hpp"
-#include "saliency/symmetry_rows-inl.hpp"
+#include "saliency/simd/master_map-inl.hpp"
+#include "saliency/simd/normals-inl.hpp"
+#include "saliency/simd/pyramid-inl.hpp"
+#include "saliency/simd/symmetry_rows-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace saccade {
 namespace HWY_NAMESPACE {
 
-const Kernels* get_kernels() {
+const SimdStages* get_stages() {
 #if HWY_TARGET == HWY_AVX3
   constexpr std::string_view name = "avx512";
 #elif HWY_TARGET == HWY_AVX2
@@ -38,9 +38,9 @@ const Kernels* get_kernels() {
 #else
   constexpr std::string_view name = "scalar";
 #endif
-  static constexpr Kernels kernels{name,       kLanes,      kRunsFromReach, load_rows,
-                                   halve_rows, normal_rows, symmetry_rows,  add_upsampled_rows};
-  return &kernels;
+  static constexpr SimdStages stages{name,       kLanes,      kRunsFromReach, load_rows,
+                                     halve_rows, normal_rows, symmetry_rows,  add_upsampled_rows};
+  return &stages;
 }
 
 }  // namespace HWY_NAMESPACE
@@ -51,7 +51,7 @@ HWY_AFTER_NAMESPACE();
 namespace saccade {
 namespace {
 
-HWY_EXPORT(get_kernels);
+HWY_EXPORT(get_stages);
 
 struct InstructionSet {
   std::string_view name;
@@ -86,13 +86,13 @@ std::size_t highest_allowed(const std::string& simd, const std::string& who) {
 
 }  // namespace
 
-const Kernels& choose_kernels(const std::string& simd) {
+const SimdStages& choose_simd_stages(const std::string& simd) {
   const char* environment = std::getenv("SACCADE_SIMD");
   const std::size_t set = std::min(highest_allowed(simd, "simd"),
                                    highest_allowed(environment ? environment : "", "SACCADE_SIMD"));
   hwy::ChosenTarget chosen;
   chosen.Update(kSets[set].target);
-  return *HWY_DISPATCH_TABLE(get_kernels)[chosen.GetIndex()]();
+  return *HWY_DISPATCH_TABLE(get_stages)[chosen.GetIndex()]();
 }
 
 }  // namespace saccade

@@ -9,7 +9,7 @@
 
 #include <hwy/contrib/math/math-inl.h>
 
-#include "saliency/simd-inl.hpp"
+#include "saliency/simd/vectors-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace saccade {
@@ -18,27 +18,27 @@ namespace HWY_NAMESPACE {
 /// Sums over points of a window, whose centre is p at (row, col): count, z - p.z in mm, z times the rows and
 /// columns from the centre, and normals.
 struct HalfSums {
-  V count, z, z_rows, z_cols;
+  VF count, z, z_rows, z_cols;
   Vec3 normal;
 };
 
 /// The pixels at whose points planes are judged.
 struct Centres {
-  V ray_x, ray_y;          ///< p = z * (ray_x, ray_y, 1)
-  V minus_inverse_lambda;  ///< -1/lambda, 1/mm
+  VF ray_x, ray_y;          ///< p = z * (ray_x, ray_y, 1)
+  VF minus_inverse_lambda;  ///< -1/lambda, 1/mm
   float inverse_fx, inverse_fy;
 };
 
 /// Sums over a half: of ones, of points relative to p, and of normals.
 struct Half {
-  V count;
+  VF count;
   Vec3 point, normal;
 };
 
 /// x_j - p.x = ray_x*(z_j - p.z) + z_j*dc/fx, and y alike.
 HWY_INLINE Half half_of(const HalfSums& sums, const Centres& centres) {
-  const V x = hn::MulAdd(centres.ray_x, sums.z, hn::Mul(sums.z_cols, set(centres.inverse_fx)));
-  const V y = hn::MulAdd(centres.ray_y, sums.z, hn::Mul(sums.z_rows, set(centres.inverse_fy)));
+  const VF x = hn::MulAdd(centres.ray_x, sums.z, hn::Mul(sums.z_cols, set(centres.inverse_fx)));
+  const VF y = hn::MulAdd(centres.ray_y, sums.z, hn::Mul(sums.z_rows, set(centres.inverse_fy)));
   return {sums.count, {x, y, sums.z}, sums.normal};
 }
 
@@ -51,39 +51,39 @@ HWY_INLINE Vec3 normalised(const Vec3& v) { return v * reciprocal_sqrt(hn::Max(d
 
 /// omega_1 of Eq. (8): |N x l| with N = n' x n''/|n' x n''|; 0 where N is not defined.
 /// Differs from Eq. (8): N is normalised; without that omega_1 would vanish for exactly opposite normals.
-HWY_INLINE V omega_1(const Vec3& n1, const Vec3& n2, const Vec3& l) {
+HWY_INLINE VF omega_1(const Vec3& n1, const Vec3& n2, const Vec3& l) {
   const Vec3 n = cross(n1, n2), sine = cross(n, l);
-  const V square = dot(sine, sine);
+  const VF square = dot(sine, sine);
   // |n x l|/|n| with one root
   return hn::Mul(square, reciprocal_sqrt(hn::Max(hn::Mul(square, dot(n, n)), set(1e-36f))));
 }
 
 /// Eqs. (3, 13) for one plane with unit normal `gamma`: `in_front` is of one side of it (the paper's '),
 /// `all` of the window without its centre.
-HWY_INLINE V plane_score(const Centres& centres, const Vec3& gamma, const HalfSums& in_front,
-                         const HalfSums& all) {
+HWY_INLINE VF plane_score(const Centres& centres, const Vec3& gamma, const HalfSums& in_front,
+                          const HalfSums& all) {
   const Half front = half_of(in_front, centres), back = half_of(all, centres) - front;
-  const V one = set(1.0f), half = set(0.5f);
+  const VF one = set(1.0f), half = set(0.5f);
   const Vec3 p1 = front.point * reciprocal(hn::Max(front.count, one));  // Eq. (5)
   const Vec3 p2 = back.point * reciprocal(hn::Max(back.count, one));    // Eq. (6)
   const Vec3 difference = p1 - p2;
-  const M halves = hn::And(hn::Gt(front.count, half), hn::Gt(back.count, half));
+  const MF halves = hn::And(hn::Gt(front.count, half), hn::Gt(back.count, half));
   // Differs from Eq. (14), which as printed would also erase convex patches: the normals must lean away. That
   // is seen before anything is normalised, and at most pixels it spares the rest for one plane or more.
-  const M good = hn::And(halves, hn::And(hn::Gt(dot(front.normal, difference), zero()),
-                                         hn::Lt(dot(back.normal, difference), zero())));
-  if (hn::AllFalse(kF, good)) return zero();
+  const MF good = hn::And(halves, hn::And(hn::Gt(dot(front.normal, difference), zero()),
+                                          hn::Lt(dot(back.normal, difference), zero())));
+  if (hn::AllFalse(df, good)) return zero();
 
-  const Vec3 n1 = normalised(front.normal);        // Eq. (10)
-  const Vec3 n2 = normalised(back.normal);         // Eq. (11)
-  const Vec3 l = normalised(difference);           // Eq. (9)
-  const V delta_D = hn::Abs(difference.z);         // Eq. (4)
-  const V delta_d = hn::Abs(dot(gamma, p1 + p2));  // Eq. (7), since gamma.p1 and gamma.p2 have two signs
-  const V difference_of_cosines = hn::Sub(dot(n1, l), dot(n2, l));
+  const Vec3 n1 = normalised(front.normal);         // Eq. (10)
+  const Vec3 n2 = normalised(back.normal);          // Eq. (11)
+  const Vec3 l = normalised(difference);            // Eq. (9)
+  const VF delta_D = hn::Abs(difference.z);         // Eq. (4)
+  const VF delta_d = hn::Abs(dot(gamma, p1 + p2));  // Eq. (7), since gamma.p1 and gamma.p2 have two signs
+  const VF difference_of_cosines = hn::Sub(dot(n1, l), dot(n2, l));
   // Eq. (12): (1 - cos(a1 + a2))(1 - cos(a1 - a2)) is the same for angles of one plane.
-  const V omega_2 = hn::Mul(difference_of_cosines, difference_of_cosines);
-  const V exponent = hn::Mul(hn::Add(delta_D, delta_d), centres.minus_inverse_lambda);
-  const V distance = hn::Exp(kF, exponent);
+  const VF omega_2 = hn::Mul(difference_of_cosines, difference_of_cosines);
+  const VF exponent = hn::Mul(hn::Add(delta_D, delta_d), centres.minus_inverse_lambda);
+  const VF distance = hn::Exp(df, exponent);
   return hn::IfThenElseZero(good, hn::Mul(hn::Mul(distance, omega_1(n1, n2, l)), omega_2));
 }
 

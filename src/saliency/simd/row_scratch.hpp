@@ -7,11 +7,11 @@
 
 #include <hwy/aligned_allocator.h>
 
-#include "saliency/point_records.hpp"
+#include "saliency/simd/row_prefix_sums.hpp"
 
 namespace saccade {
 
-/// A row of numbers with margins on both sides that may be read (and hold 0 unless a user writes there).
+/// A row of numbers with margins on both sides that may be read; they hold 0 unless a user writes there.
 template <typename T>
 class PaddedRow {
  public:
@@ -36,29 +36,31 @@ std::array<PaddedRow<T>, kRows> padded_rows(int width) {
   return rows;
 }
 
-/// Sums over the rows of a window, for each column. Normals, their products and depths are whole numbers of a
-/// small unit, so that their sums are exact in any order. DepthPacking leaves room for kDepthRows too.
-struct ColumnSums {
+/// For each column, sums over the rows of a window. Normals, their products and depths are rounded to
+/// integers of a small unit, so that their sums are exact in any order. DepthPacking leaves room for
+/// kDepthRows too.
+struct VerticalSums {
   enum Sum { kX, kY, kZ, kXX, kYY, kZZ, kXY, kXZ, kYZ, kNormals, kPacked = kNormals, kDepthRows, kSums };
-  /// kPacked as in LevelPlanes; kDepthRows of depth times the rows from the centre.
+  /// kPacked as in LevelPlanes; kDepthRows: depth times the number of rows below the centre.
   std::array<PaddedRow<std::int32_t>, kSums> sums;
 
-  explicit ColumnSums(int width) : sums(padded_rows<std::int32_t, kSums>(width)) {}
+  explicit VerticalSums(int width) : sums(padded_rows<std::int32_t, kSums>(width)) {}
 };
 
-/// Totals of ColumnSums from the first column to each. The difference of two is the sum of what lies between
-/// them, and right in 32 bits where that has room in them, whatever the totals.
-struct RunningTotals {
-  enum Whole { kDepth = ColumnSums::kNormals, kWholes };  ///< after the normals of ColumnSums
+/// Prefix sums of VerticalSums along the row, each including its own column: the sum over a window is the
+/// difference of two. It is right in 32 bits if the window's sum fits, even where the prefix sums overflow.
+struct WindowPrefixSums {
+  enum Integer { kDepth = VerticalSums::kNormals, kIntegers };  ///< after the normals of VerticalSums
   enum Double { kDepthRows, kDepthCols, kDoubles };
-  std::array<PaddedRow<std::int32_t>, kWholes> whole;
-  std::array<PaddedRow<double>, kDoubles> depth;
+  std::array<PaddedRow<std::int32_t>, kIntegers> integers;
+  std::array<PaddedRow<double>, kDoubles> doubles;
 
-  explicit RunningTotals(int width)
-      : whole(padded_rows<std::int32_t, kWholes>(width)), depth(padded_rows<double, kDoubles>(width)) {}
+  explicit WindowPrefixSums(int width)
+      : integers(padded_rows<std::int32_t, kIntegers>(width)),
+        doubles(padded_rows<double, kDoubles>(width)) {}
 };
 
-/// What the operator needs to know at each pixel of a row before it looks at single points.
+/// Per pixel of a row: what depends on the window as a whole, before its points are split by planes.
 struct RowStatistics {
   enum Value {
     kCovXX,
@@ -66,11 +68,11 @@ struct RowStatistics {
     kCovZZ,
     kCovXY,
     kCovXZ,
-    kCovYZ,  ///< of the window's normals
+    kCovYZ,  ///< covariance of the window's normals, times the square of their number
     kAxis0,
     kAxis1 = kAxis0 + 3,
-    kAxis2 = kAxis1 + 3,  ///< x, y, z of its eigenvectors
-    kCount = kAxis2 + 3,  ///< sums over the window without its centre, as HalfSums has them
+    kAxis2 = kAxis1 + 3,  ///< x, y, z of the covariance's eigenvectors
+    kCount = kAxis2 + 3,  ///< from here on sums over the window without its centre, as in HalfSums
     kZ,
     kZRows,
     kZCols,
@@ -80,7 +82,7 @@ struct RowStatistics {
     kValues
   };
   std::array<PaddedRow<float>, kValues> values;
-  std::vector<int> groups;  ///< first columns of the vectors that hold the row's points, none of them twice
+  std::vector<int> groups;  ///< first columns of the vectors that cover the row's points without overlap
 
   explicit RowStatistics(int width) : values(padded_rows<float, kValues>(width)) {
     groups.reserve(static_cast<std::size_t>(width));
@@ -90,19 +92,19 @@ struct RowStatistics {
 
 /// Memory of one worker; sized for the widest row and the largest window, and kept between frames.
 struct RowScratch {
-  static constexpr int kPreparedRows = 4;  ///< so many rows are prepared before their points are looked at
+  static constexpr int kPreparedRows = 4;  ///< rows whose statistics are computed before any window is split
 
   explicit RowScratch(int width)
-      : columns(width),
-        totals(width),
+      : vertical_sums(width),
+        window_sums(width),
         halving(padded_rows<double, 4>(width)),
         upsampling(padded_rows<float, 2>(width)) {
     for (int r = 0; r < kPreparedRows; ++r) statistics.emplace_back(width);
   }
 
-  PointRecords records;                        ///< of the rows that windows reach, if these are large
-  ColumnSums columns;                          ///< of the window's rows
-  RunningTotals totals;                        ///< of the columns
+  RowPrefixSums row_sums;  ///< of the rows within reach; empty unless the window reaches runs_from_reach
+  VerticalSums vertical_sums;
+  WindowPrefixSums window_sums;
   std::vector<RowStatistics> statistics;       ///< of each prepared row
   std::array<PaddedRow<double>, 4> halving;    ///< pyramid: depths and weights of even and of odd columns
   std::array<PaddedRow<float>, 2> upsampling;  ///< master map

@@ -10,10 +10,10 @@
 
 #include <algorithm>
 
-#include "saliency/level_planes.hpp"
-#include "saliency/row_scratch.hpp"
-#include "saliency/simd-inl.hpp"
-#include "saliency/window_sums-inl.hpp"
+#include "saliency/simd/level_planes.hpp"
+#include "saliency/simd/row_scratch.hpp"
+#include "saliency/simd/vectors-inl.hpp"
+#include "saliency/simd/window_sums-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace saccade {
@@ -21,31 +21,31 @@ namespace HWY_NAMESPACE {
 
 /// Of each pixel of row r: the covariance of the normals, and the sums that the halves are taken from. The
 /// covariance is a difference of nearly equal numbers where surfaces are flat; in double it is exact enough.
-HWY_INLINE void window_statistics(const LevelPlanes& level, int r, int reach, RunningTotals& totals,
+HWY_INLINE void window_statistics(const LevelPlanes& level, int r, int reach, WindowPrefixSums& sums,
                                   RowStatistics& statistics) {
   using S = RowStatistics;
-  using C = ColumnSums;
-  const WideV whole_unit = hn::Set(kWide, 1.0 / normal_units(reach));
-  const WideV inverse_units = hn::Set(kWide, 1.0 / static_cast<double>(level.packing.units_per_mm));
-  const auto depth_mask = hn::Set(kHalfWhole, level.packing.depth_mask());
+  using C = VerticalSums;
+  const VD normal_unit = hn::Set(dd, 1.0 / normal_units(reach));
+  const VD inverse_units = hn::Set(dd, 1.0 / static_cast<double>(level.packing.units_per_mm));
+  const auto depth_mask = hn::Set(dhi, level.packing.depth_mask());
   const float* packed = level.row(LevelPlanes::kPacked, r);
-  for (int c = 0; c < level.width(); c += kWideLanes) {
+  for (int c = 0; c < level.width(); c += kDoubleLanes) {
     const auto window = [&](auto tag, auto* row) HWY_ATTR {
       return hn::Sub(hn::LoadU(tag, row + c + reach), hn::LoadU(tag, row + c - reach - 1));
     };
-    const auto whole = [&](int i) HWY_ATTR {
-      return window(kHalfWhole, totals.whole[static_cast<std::size_t>(i)].data());
+    const auto integer = [&](int i) HWY_ATTR {
+      return window(dhi, sums.integers[static_cast<std::size_t>(i)].data());
     };
     const auto depth = [&](int i) HWY_ATTR {
-      return hn::Mul(window(kWide, totals.depth[static_cast<std::size_t>(i)].data()), inverse_units);
+      return hn::Mul(window(dd, sums.doubles[static_cast<std::size_t>(i)].data()), inverse_units);
     };
     const auto normal = [&](C::Sum i)
-                            HWY_ATTR { return hn::Mul(hn::PromoteTo(kWide, whole(i)), whole_unit); };
-    const auto put = [&](S::Value value, WideV v)
-                         HWY_ATTR { hn::Store(hn::DemoteTo(kHalfF, v), kHalfF, statistics.row(value) + c); };
-    const WideV x = normal(C::kX), y = normal(C::kY), z = normal(C::kZ);
-    const WideV xx = normal(C::kXX), yy = normal(C::kYY), zz = normal(C::kZZ);
-    const WideV n = hn::Round(hn::Add(xx, hn::Add(yy, zz)));  // normals have length 1
+                            HWY_ATTR { return hn::Mul(hn::PromoteTo(dd, integer(i)), normal_unit); };
+    const auto put = [&](S::Value value, VD v)
+                         HWY_ATTR { hn::Store(hn::DemoteTo(dhf, v), dhf, statistics.row(value) + c); };
+    const VD x = normal(C::kX), y = normal(C::kY), z = normal(C::kZ);
+    const VD xx = normal(C::kXX), yy = normal(C::kYY), zz = normal(C::kZZ);
+    const VD n = hn::Round(hn::Add(xx, hn::Add(yy, zz)));  // normals have length 1
     // n^2 times the covariance: its scale does not matter to the axes.
     put(S::kCovXX, hn::NegMulAdd(x, x, hn::Mul(n, xx)));
     put(S::kCovYY, hn::NegMulAdd(y, y, hn::Mul(n, yy)));
@@ -54,20 +54,18 @@ HWY_INLINE void window_statistics(const LevelPlanes& level, int r, int reach, Ru
     put(S::kCovXZ, hn::NegMulAdd(x, z, hn::Mul(n, normal(C::kXZ))));
     put(S::kCovYZ, hn::NegMulAdd(y, z, hn::Mul(n, normal(C::kYZ))));
 
-    const auto centre = [&](LevelPlanes::Plane plane) HWY_ATTR {
-      return hn::PromoteTo(kWide, hn::Load(kHalfF, level.row(plane, r) + c));
-    };
+    const auto centre = [&](LevelPlanes::Plane plane)
+                            HWY_ATTR { return hn::PromoteTo(dd, hn::Load(dhf, level.row(plane, r) + c)); };
     // The sum of depths takes all 32 bits, which are to be read without sign.
-    const auto top = hn::Set(kHalfWhole, std::numeric_limits<std::int32_t>::min());
-    const WideV z_units =
-        hn::Sub(hn::PromoteTo(kWide, hn::Xor(whole(RunningTotals::kDepth), top)), hn::PromoteTo(kWide, top));
-    const WideV z0 =
-        hn::PromoteTo(kWide, hn::And(hn::BitCast(kHalfWhole, hn::Load(kHalfF, packed + c)), depth_mask));
-    put(S::kCount, hn::Sub(n, hn::Set(kWide, 1.0)));
+    const auto top = hn::Set(dhi, std::numeric_limits<std::int32_t>::min());
+    const VD z_units =
+        hn::Sub(hn::PromoteTo(dd, hn::Xor(integer(WindowPrefixSums::kDepth), top)), hn::PromoteTo(dd, top));
+    const VD z0 = hn::PromoteTo(dd, hn::And(hn::BitCast(dhi, hn::Load(dhf, packed + c)), depth_mask));
+    put(S::kCount, hn::Sub(n, hn::Set(dd, 1.0)));
     put(S::kZ, hn::Mul(hn::NegMulAdd(n, z0, z_units), inverse_units));
-    put(S::kZRows, depth(RunningTotals::kDepthRows));
-    put(S::kZCols, hn::NegMulAdd(hn::Mul(z_units, inverse_units), hn::Iota(kWide, static_cast<double>(c)),
-                                 depth(RunningTotals::kDepthCols)));
+    put(S::kZRows, depth(WindowPrefixSums::kDepthRows));
+    put(S::kZCols, hn::NegMulAdd(hn::Mul(z_units, inverse_units), hn::Iota(dd, static_cast<double>(c)),
+                                 depth(WindowPrefixSums::kDepthCols)));
     put(S::kNormalX, hn::Sub(x, centre(LevelPlanes::kNormalX)));
     put(S::kNormalY, hn::Sub(y, centre(LevelPlanes::kNormalY)));
     put(S::kNormalZ, hn::Sub(z, centre(LevelPlanes::kNormalZ)));
@@ -76,30 +74,30 @@ HWY_INLINE void window_statistics(const LevelPlanes& level, int r, int reach, Ru
 
 /// A symmetric matrix on its way to diagonal form, and the product of the rotations so far.
 struct Diagonalisation {
-  V xx, yy, zz, xy, xz, yz;
-  V axes[3][2];  ///< [axis][x, y]; z is known from these
+  VF xx, yy, zz, xy, xz, yz;
+  VF axes[3][2];  ///< [axis][x, y]; z is known from these
 };
 
 /// One Jacobi rotation: makes the element apq 0. arp and arq are the elements that p and q share with the
 /// third index.
-HWY_INLINE void rotate(V& app, V& aqq, V& apq, V& arp, V& arq, V (&axis_p)[2], V (&axis_q)[2]) {
+HWY_INLINE void rotate(VF& app, VF& aqq, VF& apq, VF& arp, VF& arq, VF (&axis_p)[2], VF (&axis_q)[2]) {
   // cos(2a) = |d|/h and sin(2a) = 2apq/h with h^2 = d^2 + (2apq)^2 for the smaller of the two angles.
-  const V difference = hn::Sub(aqq, app), twice = hn::Add(apq, apq);
-  const V magnitude = hn::Max(hn::Abs(difference), set(1e-15f));  // no turn where all is 0
-  const V inverse = reciprocal_sqrt(hn::MulAdd(magnitude, magnitude, hn::Mul(twice, twice)));
-  const V square_of_c = hn::MulAdd(hn::Mul(magnitude, inverse), set(0.5f), set(0.5f));
-  const V inverse_of_c = reciprocal_sqrt(square_of_c);
-  const V half_sine = hn::Mul(hn::Xor(apq, hn::And(difference, hn::SignBit(kF))), inverse);
-  const V c = hn::Mul(square_of_c, inverse_of_c), s = hn::Mul(half_sine, inverse_of_c);
-  const V t = hn::Mul(s, inverse_of_c);
+  const VF difference = hn::Sub(aqq, app), twice = hn::Add(apq, apq);
+  const VF magnitude = hn::Max(hn::Abs(difference), set(1e-15f));  // no turn where all is 0
+  const VF inverse = reciprocal_sqrt(hn::MulAdd(magnitude, magnitude, hn::Mul(twice, twice)));
+  const VF square_of_c = hn::MulAdd(hn::Mul(magnitude, inverse), set(0.5f), set(0.5f));
+  const VF inverse_of_c = reciprocal_sqrt(square_of_c);
+  const VF half_sine = hn::Mul(hn::Xor(apq, hn::And(difference, hn::SignBit(df))), inverse);
+  const VF c = hn::Mul(square_of_c, inverse_of_c), s = hn::Mul(half_sine, inverse_of_c);
+  const VF t = hn::Mul(s, inverse_of_c);
   app = hn::NegMulAdd(t, apq, app);
   aqq = hn::MulAdd(t, apq, aqq);
   apq = zero();
-  const V rp = arp;
+  const VF rp = arp;
   arp = hn::NegMulAdd(s, arq, hn::Mul(c, rp));
   arq = hn::MulAdd(s, rp, hn::Mul(c, arq));
   for (int i = 0; i < 2; ++i) {
-    const V p = axis_p[i];
+    const VF p = axis_p[i];
     axis_p[i] = hn::NegMulAdd(s, axis_q[i], hn::Mul(c, p));
     axis_q[i] = hn::MulAdd(s, p, hn::Mul(c, axis_q[i]));
   }
@@ -108,9 +106,9 @@ HWY_INLINE void rotate(V& app, V& aqq, V& apq, V& arp, V& arq, V (&axis_p)[2], V
 /// Turns the axes round (which leaves them right-handed) so that the one of the smallest eigenvalue, whose
 /// plane lies along the surface, comes last: the lanes of a vector then agree about which plane is which.
 HWY_INLINE void last_is_smallest(Diagonalisation& a) {
-  const M first = hn::And(hn::Lt(a.xx, a.yy), hn::Lt(a.xx, a.zz)), second = hn::Lt(a.yy, a.zz);
+  const MF first = hn::And(hn::Lt(a.xx, a.yy), hn::Lt(a.xx, a.zz)), second = hn::Lt(a.yy, a.zz);
   for (int j = 0; j < 2; ++j) {
-    const V x = a.axes[0][j], y = a.axes[1][j], z = a.axes[2][j];
+    const VF x = a.axes[0][j], y = a.axes[1][j], z = a.axes[2][j];
     a.axes[0][j] = hn::IfThenElse(first, y, hn::IfThenElse(second, z, x));
     a.axes[1][j] = hn::IfThenElse(first, z, hn::IfThenElse(second, x, y));
     a.axes[2][j] = hn::IfThenElse(first, x, hn::IfThenElse(second, y, z));
@@ -131,8 +129,8 @@ HWY_INLINE void gaussian_image_axes(RowStatistics& statistics) {
     Diagonalisation m[kTogether];
     for (std::size_t g = 0; g < kTogether; ++g) {
       const auto get = [&](S::Value value) HWY_ATTR { return load(row(value, g)); };
-      const V n = hn::Add(get(S::kCount), set(1.0f));
-      const V scale = reciprocal(hn::Max(hn::Mul(n, n), set(1.0f)));
+      const VF n = hn::Add(get(S::kCount), set(1.0f));
+      const VF scale = reciprocal(hn::Max(hn::Mul(n, n), set(1.0f)));
       m[g].xx = hn::Mul(get(S::kCovXX), scale);
       m[g].yy = hn::Mul(get(S::kCovYY), scale);
       m[g].zz = hn::Mul(get(S::kCovZZ), scale);
@@ -150,9 +148,9 @@ HWY_INLINE void gaussian_image_axes(RowStatistics& statistics) {
     for (auto& a : m) last_is_smallest(a);
     for (std::size_t g = 0; g < kTogether; ++g)
       for (int i = 0; i < 3; ++i) {
-        const auto put = [&](int component, V v)
-                             HWY_ATTR { hn::StoreU(v, kF, row(S::kAxis0 + 3 * i + component, g)); };
-        const V(&next)[2] = m[g].axes[(i + 1) % 3], (&last)[2] = m[g].axes[(i + 2) % 3];
+        const auto put = [&](int component, VF v)
+                             HWY_ATTR { hn::StoreU(v, df, row(S::kAxis0 + 3 * i + component, g)); };
+        const VF(&next)[2] = m[g].axes[(i + 1) % 3], (&last)[2] = m[g].axes[(i + 2) % 3];
         put(0, m[g].axes[i][0]);
         put(1, m[g].axes[i][1]);
         put(2, hn::NegMulAdd(next[1], last[0], hn::Mul(next[0], last[1])));  // of next x last

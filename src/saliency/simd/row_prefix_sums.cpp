@@ -1,8 +1,8 @@
-#include "saliency/point_records.hpp"
+#include "saliency/simd/row_prefix_sums.hpp"
 
 namespace saccade {
 
-PointRecords::PointRecords(cv::Size size, int reach, int rows) {
+RowPrefixSums::RowPrefixSums(cv::Size size, int reach, int rows) {
   constexpr int kLine = 64, kPage = 4096, kVector = 16;
   const int margin = (reach + 1) / 2 * 2 * kBytes;  // whole lines
   // Rows follow each other a page and 17 lines on, so that those of a window do not compete for the same

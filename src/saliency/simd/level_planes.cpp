@@ -1,4 +1,4 @@
-#include "saliency/level_planes.hpp"
+#include "saliency/simd/level_planes.hpp"
 
 #include <algorithm>
 #include <bit>

@@ -10,33 +10,33 @@
 #include <bit>
 #include <vector>
 
-#include "saliency/axes-inl.hpp"
-#include "saliency/denormals.hpp"
-#include "saliency/params.hpp"
-#include "saliency/plane_score-inl.hpp"
-#include "saliency/runs-inl.hpp"
-#include "saliency/sweep-inl.hpp"
-#include "saliency/window_sums-inl.hpp"
+#include "saliency/simd/axes-inl.hpp"
+#include "saliency/simd/denormals.hpp"
+#include "saliency/simd/plane_score-inl.hpp"
+#include "saliency/simd/runs-inl.hpp"
+#include "saliency/simd/simd_stages.hpp"
+#include "saliency/simd/sweep-inl.hpp"
+#include "saliency/simd/window_sums-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace saccade {
 namespace HWY_NAMESPACE {
 
 /// The pixels of one vector as centres; lambda as SPEC 2.4 has it.
-HWY_INLINE Centres centres_at(const LevelPlanes& level, const Symmetry3dParams& params, int row, int col) {
+HWY_INLINE Centres centres_at(const LevelPlanes& level, const WindowParams& params, int row, int col) {
   const Intrinsics& camera = level.camera;
-  const V cols = hn::Add(hn::Iota(kF, 0.0f), set(col - camera.cx));
+  const VF cols = hn::Add(hn::Iota(df, 0.0f), set(col - camera.cx));
   Centres centres{hn::Mul(cols, set(1 / camera.fx)), set((row - camera.cy) / camera.fy), set(-1.0f),
                   static_cast<float>(1 / camera.fx), static_cast<float>(1 / camera.fy)};
-  if (params.length_scale == LengthScale::relative)
+  if (params.lambda_px)
     centres.minus_inverse_lambda =
-        hn::Mul(set(-camera.fx / (0.05 * params.kernel)), load(level.row(LevelPlanes::kInverse, row) + col));
+        hn::Mul(set(-camera.fx / *params.lambda_px), load(level.row(LevelPlanes::kInverse, row) + col));
   return centres;
 }
 
 /// Section 2 of SPEC at one vector of pixels: the best of the three planes, Eqs. (3, 13).
-HWY_INLINE V symmetry_at(const LevelPlanes& level, const Symmetry3dParams& params, const Window& window,
-                         int row, int col, RowStatistics& statistics, const PointRecords& records) {
+HWY_INLINE VF symmetry_at(const LevelPlanes& level, const WindowParams& params, const Window& window, int row,
+                          int col, RowStatistics& statistics, const RowPrefixSums& row_sums) {
   using S = RowStatistics;
   const auto get = [&](int value) HWY_ATTR { return load(statistics.row(value) + col); };
   const Centres centres = centres_at(level, params, row, col);
@@ -52,10 +52,10 @@ HWY_INLINE V symmetry_at(const LevelPlanes& level, const Symmetry3dParams& param
   }
   HalfSums front[kPlanes];
   if (window.reach >= kRunsFromReach)
-    sum_runs_in_front(level, records, row, col, window, centres, gamma, front);
+    sum_runs_in_front(level, row_sums, row, col, window, centres, gamma, front);
   else
     sum_in_front(level, level.at(row, col), window, centres, gamma, front);
-  V best = zero();
+  VF best = zero();
   for (int i = 0; i < kPlanes; ++i) best = hn::Max(best, plane_score(centres, gamma[i], front[i], all));
   return hn::IfThenElseZero(points_at(level, row, col), best);
 }
@@ -74,27 +74,26 @@ HWY_INLINE void find_groups(const LevelPlanes& level, int r, std::vector<int>& g
 /// Everything of row r that is needed before single points are looked at.
 HWY_INLINE void prepare_row(const LevelPlanes& level, int r, int reach, bool first, RowStatistics& statistics,
                             RowScratch& scratch) {
-  slide_column_sums(level, r, reach, first, scratch);
+  slide_vertical_sums(level, r, reach, first, scratch);
   find_groups(level, r, statistics.groups);
   if (statistics.groups.empty()) return;
-  total_columns(level, reach, scratch);
-  window_statistics(level, r, reach, scratch.totals, statistics);
+  sum_up_columns(level, reach, scratch);
+  window_statistics(level, r, reach, scratch.window_sums, statistics);
   gaussian_image_axes(statistics);
 }
 
-/// Kernels::symmetry_rows. A few rows are prepared at a time, as many as the caches hold the statistics of;
-/// then it goes column by column, so that the points of a window stay in the nearest cache for the windows
-/// below.
-void symmetry_rows(LevelPlanes& level, const Symmetry3dParams& params, int begin, int end,
-                   RowScratch& scratch) {
+/// SimdStages::symmetry_rows. A few rows are prepared at a time, as many as the caches hold the statistics
+/// of; then it goes column by column, so that the points of a window stay in the nearest cache for the
+/// windows below.
+void symmetry_rows(LevelPlanes& level, const WindowParams& params, int begin, int end, RowScratch& scratch) {
   const DenormalsAreZero denormals;
-  const int reach = params.kernel / 2;
+  const int reach = params.reach;
   for (int top = begin; top < end; top += RowScratch::kPreparedRows) {
     const int bottom = std::min(top + RowScratch::kPreparedRows, end);
     if (reach >= kRunsFromReach) {
       const int first = top == begin ? std::max(0, begin - reach) : top + reach;
       for (int r = first; r < std::min(bottom + reach, level.height()); ++r)
-        record_row(level, r, reach, scratch.records);
+        fill_prefix_row(level, r, reach, scratch.row_sums);
     }
     const auto statistics = [&](int r) -> RowStatistics& {
       return scratch.statistics[static_cast<std::size_t>(r - top)];
@@ -110,7 +109,7 @@ void symmetry_rows(LevelPlanes& level, const Symmetry3dParams& params, int begin
         if (g >= statistics(r).groups.size()) continue;
         const int c = statistics(r).groups[g];
         const Window window{std::max(-reach, -r), std::min(reach, level.height() - 1 - r), reach};
-        hn::StoreU(symmetry_at(level, params, window, r, c, statistics(r), scratch.records), kF,
+        hn::StoreU(symmetry_at(level, params, window, r, c, statistics(r), scratch.row_sums), df,
                    level.row(LevelPlanes::kScore, r) + c);
       }
   }

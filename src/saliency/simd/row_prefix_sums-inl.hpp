@@ -1,15 +1,15 @@
-// Sums of points as PointRecords holds them, compiled once for each instruction set.
-#if defined(SACCADE_SALIENCY_POINT_RECORDS_INL) == defined(HWY_TARGET_TOGGLE)
-#ifdef SACCADE_SALIENCY_POINT_RECORDS_INL
-#undef SACCADE_SALIENCY_POINT_RECORDS_INL
+// Sums of points as RowPrefixSums holds them, compiled once for each instruction set.
+#if defined(SACCADE_SALIENCY_ROW_PREFIX_SUMS_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef SACCADE_SALIENCY_ROW_PREFIX_SUMS_INL
+#undef SACCADE_SALIENCY_ROW_PREFIX_SUMS_INL
 #else
-#define SACCADE_SALIENCY_POINT_RECORDS_INL
+#define SACCADE_SALIENCY_ROW_PREFIX_SUMS_INL
 #endif
 
-#include "saliency/level_planes.hpp"
-#include "saliency/point_records.hpp"
-#include "saliency/simd-inl.hpp"
-#include "saliency/window_sums-inl.hpp"
+#include "saliency/simd/level_planes.hpp"
+#include "saliency/simd/row_prefix_sums.hpp"
+#include "saliency/simd/vectors-inl.hpp"
+#include "saliency/simd/window_sums-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace saccade {
@@ -40,17 +40,17 @@ class PartSum {
   hn::Vec<Tag> parts_[kParts];
 };
 
-using RecordSum = PartSum<PointRecords::kNumbers>;
+using EntrySum = PartSum<RowPrefixSums::kNumbers>;
 
-HWY_INLINE const std::int32_t* record_at(const char* base, std::int32_t offset) {
+HWY_INLINE const std::int32_t* entry_at(const char* base, std::int32_t offset) {
   return reinterpret_cast<const std::int32_t*>(base + offset);
 }
 
 /// Fills the records of row r.
-HWY_INLINE void record_row(const LevelPlanes& level, int r, int reach, PointRecords& records) {
-  constexpr int kHalf = PointRecords::kNumbers / 2;
-  const V unit = set(normal_units(reach));
-  const W depth_mask = hn::Set(kWhole, level.packing.depth_mask()), row = hn::Set(kWhole, r);
+HWY_INLINE void fill_prefix_row(const LevelPlanes& level, int r, int reach, RowPrefixSums& records) {
+  constexpr int kHalf = RowPrefixSums::kNumbers / 2;
+  const VF unit = set(normal_units(reach));
+  const VI depth_mask = hn::Set(di, level.packing.depth_mask()), row = hn::Set(di, r);
   const float* packed = level.row(LevelPlanes::kPacked, r);
   alignas(64) std::int32_t first[kHalf * kLanes], second[kHalf * kLanes];
   PartSum<kHalf> first_sum, second_sum;
@@ -61,14 +61,14 @@ HWY_INLINE void record_row(const LevelPlanes& level, int r, int reach, PointReco
   for (int c = -reach; c <= 0; ++c) store(c);
   const int end = round_up(level.width(), kLanes);
   for (int c = 0; c < end; c += kLanes) {
-    const W p = hn::BitCast(kWhole, hn::Load(kF, packed + c)), z = hn::And(p, depth_mask);
-    const W count = hn::IfThenElseZero(hn::Gt(p, hn::Zero(kWhole)), hn::Set(kWhole, 1));
+    const VI p = hn::BitCast(di, hn::Load(df, packed + c)), z = hn::And(p, depth_mask);
+    const VI count = hn::IfThenElseZero(hn::Gt(p, hn::Zero(di)), hn::Set(di, 1));
     const auto normal = [&](LevelPlanes::Plane plane) HWY_ATTR {
-      return nearest(hn::Mul(hn::Load(kF, level.row(plane, r) + c), unit));
+      return nearest(hn::Mul(hn::Load(df, level.row(plane, r) + c), unit));
     };
-    hn::StoreInterleaved4(count, z, hn::Mul(z, row), hn::Mul(z, hn::Iota(kWhole, c)), kWhole, first);
+    hn::StoreInterleaved4(count, z, hn::Mul(z, row), hn::Mul(z, hn::Iota(di, c)), di, first);
     hn::StoreInterleaved4(normal(LevelPlanes::kNormalX), normal(LevelPlanes::kNormalY),
-                          normal(LevelPlanes::kNormalZ), hn::Zero(kWhole), kWhole, second);
+                          normal(LevelPlanes::kNormalZ), hn::Zero(di), di, second);
     for (int lane = 0; lane < kLanes; ++lane) {
       first_sum.add(first + kHalf * lane);
       second_sum.add(second + kHalf * lane);

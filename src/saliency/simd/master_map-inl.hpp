@@ -8,38 +8,38 @@
 
 #include <algorithm>
 
-#include "saliency/denormals.hpp"
-#include "saliency/level_planes.hpp"
-#include "saliency/row_scratch.hpp"
-#include "saliency/simd-inl.hpp"
+#include "saliency/simd/denormals.hpp"
+#include "saliency/simd/level_planes.hpp"
+#include "saliency/simd/row_scratch.hpp"
+#include "saliency/simd/vectors-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace saccade {
 namespace HWY_NAMESPACE {
 
-/// Kernels::add_upsampled_rows. A bilinear map of level l, sampled at the pixels of level l - 1 and
+/// SimdStages::add_upsampled_rows. A bilinear map of level l, sampled at the pixels of level l - 1 and
 /// interpolated between them, is the same bilinear map; so that it can go down level by level, each step a
 /// mean of two.
 void add_upsampled_rows(LevelPlanes& fine, float weight, const LevelPlanes& coarse, int begin, int end,
                         RowScratch& scratch) {
   const DenormalsAreZero denormals;
   float* line = scratch.upsampling[0].data();
-  const V half = set(0.5f);
+  const VF half = set(0.5f);
   for (int r = begin; r < end; ++r) {
     const float* above = coarse.row(LevelPlanes::kScore, r / 2);
     const float* below = coarse.row(LevelPlanes::kScore, std::min((r + 1) / 2, coarse.height() - 1));
     for (int c = 0; c < coarse.width(); c += kLanes)
-      hn::Store(hn::Mul(half, hn::Add(hn::Load(kF, above + c), hn::Load(kF, below + c))), kF, line + c);
+      hn::Store(hn::Mul(half, hn::Add(hn::Load(df, above + c), hn::Load(df, below + c))), df, line + c);
     line[coarse.width()] = line[coarse.width() - 1];  // clamped at the border
 
     float* score = fine.row(LevelPlanes::kScore, r);
     float* up = scratch.upsampling[1].data();
     for (int c = 0; c < coarse.width(); c += kLanes) {
-      const V even = hn::Load(kF, line + c);
-      hn::StoreInterleaved2(even, hn::Mul(half, hn::Add(even, load(line + c + 1))), kF, up + 2 * c);
+      const VF even = hn::Load(df, line + c);
+      hn::StoreInterleaved2(even, hn::Mul(half, hn::Add(even, load(line + c + 1))), df, up + 2 * c);
     }
     for (int c = 0; c < fine.width(); c += kLanes)
-      hn::Store(hn::MulAdd(set(weight), hn::Load(kF, score + c), hn::Load(kF, up + c)), kF, score + c);
+      hn::Store(hn::MulAdd(set(weight), hn::Load(df, score + c), hn::Load(df, up + c)), df, score + c);
   }
 }
 

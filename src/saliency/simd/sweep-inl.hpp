@@ -9,9 +9,9 @@
 
 #include <algorithm>
 
-#include "saliency/level_planes.hpp"
-#include "saliency/plane_score-inl.hpp"
-#include "saliency/simd-inl.hpp"
+#include "saliency/simd/level_planes.hpp"
+#include "saliency/simd/plane_score-inl.hpp"
+#include "saliency/simd/vectors-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace saccade {
@@ -23,7 +23,7 @@ struct Window {
   int reach;
 };
 
-/// Whole numbers as floats, to be broadcast from memory: distances from the centre of a window.
+/// DI numbers as floats, to be broadcast from memory: distances from the centre of a window.
 struct Numbers {
   static constexpr int kLargest = 64;
   float value[2 * kLargest + 1];
@@ -44,9 +44,9 @@ constexpr bool kSweepsOnce = false;
 #endif
 
 /// Which pixels of a vector are points of the operator.
-HWY_INLINE M points_at(const LevelPlanes& level, int row, int col) {
-  const auto packed = hn::BitCast(kWhole, load(level.row(LevelPlanes::kPacked, row) + col));
-  return hn::RebindMask(kF, hn::Gt(packed, hn::Zero(kWhole)));
+HWY_INLINE MF points_at(const LevelPlanes& level, int row, int col) {
+  const auto packed = hn::BitCast(di, load(level.row(LevelPlanes::kPacked, row) + col));
+  return hn::RebindMask(df, hn::Gt(packed, hn::Zero(di)));
 }
 
 /// Where the points of a level are, seen from a centre.
@@ -71,16 +71,17 @@ struct Column {
 
 /// The three planes through a centre as the sweep needs them.
 struct SweepPlanes {
-  V z0;                ///< the centre's depth
-  V per_col[kPlanes];  ///< -gamma.x/fx / gamma.ray: what a column adds to where the plane cuts the ray
-  V per_row[kPlanes];  ///< -gamma.y/fy / gamma.ray: what a row adds
+  VF z0;                ///< the centre's depth
+  VF per_col[kPlanes];  ///< -gamma.x/fx / gamma.ray: what a column adds to where the plane cuts the ray
+  VF per_row[kPlanes];  ///< -gamma.y/fy / gamma.ray: what a row adds
 
-  SweepPlanes(const Vec3* gamma, const Centres& centres, V depth) : z0(depth) {
+  SweepPlanes(const Vec3* gamma, const Centres& centres, VF depth) : z0(depth) {
     for (int i = 0; i < kPlanes; ++i) {
-      const V along_ray =
+      const VF along_ray =
           hn::MulAdd(gamma[i].x, centres.ray_x, hn::MulAdd(gamma[i].y, centres.ray_y, gamma[i].z));
-      const V tiny = set(1e-12f);
-      const V factor = hn::Div(set(-1.0f), hn::IfThenElse(hn::Gt(hn::Abs(along_ray), tiny), along_ray, tiny));
+      const VF tiny = set(1e-12f);
+      const VF factor =
+          hn::Div(set(-1.0f), hn::IfThenElse(hn::Gt(hn::Abs(along_ray), tiny), along_ray, tiny));
       per_col[i] = hn::Mul(hn::Mul(gamma[i].x, set(centres.inverse_fx)), factor);
       per_row[i] = hn::Mul(hn::Mul(gamma[i].y, set(centres.inverse_fy)), factor);
     }
@@ -90,15 +91,15 @@ struct SweepPlanes {
 /// Of each plane, the sums over the points in front that grow with every point. `counted` is packed, and is
 /// unpacked before it overflows.
 struct RunningSums {
-  W counted[kPlanes];
-  V z_rows[kPlanes], x[kPlanes], y[kPlanes], z[kPlanes];
+  VI counted[kPlanes];
+  VF z_rows[kPlanes], x[kPlanes], y[kPlanes], z[kPlanes];
 };
 
 /// Adds the points of a column that lie in front of each plane: their packed count and depth, z_rows and, if
 /// kSweepsOnce, their normals; else their selections are stored.
 HWY_INLINE void sweep_positions(const Points& points, const Column& column, const SweepPlanes& planes,
                                 RunningSums& sums, Selection* selections) {
-  V per_row[kPlanes], at_col[kPlanes];
+  VF per_row[kPlanes], at_col[kPlanes];
   for (int i = 0; i < kPlanes; ++i) {
     at_col[i] = hn::Mul(planes.per_col[i], set(kNumbers.value[column.col + kNumbers.kLargest]));
     per_row[i] = planes.per_row[i];
@@ -106,18 +107,18 @@ HWY_INLINE void sweep_positions(const Points& points, const Column& column, cons
   std::ptrdiff_t j = column.first_row * points.stride + column.col;
   const float* row = kNumbers.value + kNumbers.kLargest + column.first_row;
   for (const float* const end = kNumbers.value + kNumbers.kLargest + column.last_row + 1; row != end; ++row) {
-    const V z = in_register(load(points.depth + j));
-    const W p = in_register(hn::BitCast(kWhole, load(points.packed + j)));
-    const V q = hn::Mul(hn::Sub(z, planes.z0), load(points.inverse + j));
-    V nx = zero(), ny = zero(), nz = zero();
+    const VF z = in_register(load(points.depth + j));
+    const VI p = in_register(hn::BitCast(di, load(points.packed + j)));
+    const VF q = hn::Mul(hn::Sub(z, planes.z0), load(points.inverse + j));
+    VF nx = zero(), ny = zero(), nz = zero();
     if constexpr (kSweepsOnce) {
       nx = in_register(load(points.normal_x + j));
       ny = in_register(load(points.normal_y + j));
       nz = in_register(load(points.normal_z + j));
     }
-    const V dr = set(*row), z_times_row = hn::Mul(z, dr);
+    const VF dr = set(*row), z_times_row = hn::Mul(z, dr);
     for (int i = 0; i < kPlanes; ++i) {
-      const M m = hn::Gt(q, hn::MulAdd(per_row[i], dr, at_col[i]));  // Eq. (2)
+      const MF m = hn::Gt(q, hn::MulAdd(per_row[i], dr, at_col[i]));  // Eq. (2)
       const Selection front = select(m);
       sums.counted[i] = add_where(m, p, sums.counted[i]);
       sums.z_rows[i] = add_product_where(front, z, dr, z_times_row, sums.z_rows[i]);
@@ -140,11 +141,11 @@ HWY_INLINE void sweep_normals(const Points& points, const Column& column, const 
   for (int v = column.first_row; v <= column.last_row; ++v, j += points.stride, selections += kPlanes) {
     Selection front[kPlanes];
     for (int i = 0; i < kPlanes; ++i) front[i] = in_register(selections[i]);
-    const V nx = in_register(load(points.normal_x + j));
+    const VF nx = in_register(load(points.normal_x + j));
     for (int i = 0; i < kPlanes; ++i) sums.x[i] = add_where(front[i], nx, sums.x[i]);
-    const V ny = in_register(load(points.normal_y + j));
+    const VF ny = in_register(load(points.normal_y + j));
     for (int i = 0; i < kPlanes; ++i) sums.y[i] = add_where(front[i], ny, sums.y[i]);
-    const V nz = in_register(load(points.normal_z + j));
+    const VF nz = in_register(load(points.normal_z + j));
     for (int i = 0; i < kPlanes; ++i) sums.z[i] = add_where(front[i], nz, sums.z[i]);
   }
 }
@@ -168,8 +169,8 @@ HWY_INLINE void sum_in_front(const LevelPlanes& level, std::ptrdiff_t at, const 
   const Points points(level, at);
   const SweepPlanes planes(gamma, centres, load(points.depth));
   const DepthPacking& packing = level.packing;
-  const W depth_mask = hn::Set(kWhole, packing.depth_mask());
-  const W z0 = hn::And(hn::BitCast(kWhole, load(points.packed)), depth_mask);
+  const VI depth_mask = hn::Set(di, packing.depth_mask());
+  const VI z0 = hn::And(hn::BitCast(di, load(points.packed)), depth_mask);
   RunningSums running;
   for (int i = 0; i < kPlanes; ++i) {
     sums[i].count = sums[i].z = sums[i].z_cols = zero();
@@ -178,8 +179,8 @@ HWY_INLINE void sum_in_front(const LevelPlanes& level, std::ptrdiff_t at, const 
   Selection selections[kSweepsOnce ? 1 : kPlanes * (2 * kNumbers.kLargest - 1)];
   for (int begin = -window.reach; begin <= window.reach; begin += packing.columns) {
     const int end = std::min(begin + packing.columns, window.reach + 1);
-    W sum_of_sums[kPlanes];
-    for (int i = 0; i < kPlanes; ++i) running.counted[i] = sum_of_sums[i] = hn::Zero(kWhole);
+    VI sum_of_sums[kPlanes];
+    for (int i = 0; i < kPlanes; ++i) running.counted[i] = sum_of_sums[i] = hn::Zero(di);
     for (int dc = begin; dc < end; ++dc) {
       const Column column{window.first_row, window.last_row, dc};
       sweep_positions(points, column, planes, running, selections);
@@ -188,17 +189,17 @@ HWY_INLINE void sum_in_front(const LevelPlanes& level, std::ptrdiff_t at, const 
         sum_of_sums[i] = hn::Add(sum_of_sums[i], hn::And(running.counted[i], depth_mask));
     }
     for (int i = 0; i < kPlanes; ++i) {
-      const W z = hn::And(running.counted[i], depth_mask);
-      const W count = shift_right(running.counted[i], packing.depth_bits);
-      const W from_begin = hn::Sub(hn::Mul(z, hn::Set(kWhole, end - begin)), sum_of_sums[i]);
-      sums[i].count = hn::Add(sums[i].count, hn::ConvertTo(kF, count));
-      sums[i].z = hn::Add(sums[i].z, hn::ConvertTo(kF, hn::Sub(z, hn::Mul(count, z0))));
+      const VI z = hn::And(running.counted[i], depth_mask);
+      const VI count = shift_right(running.counted[i], packing.depth_bits);
+      const VI from_begin = hn::Sub(hn::Mul(z, hn::Set(di, end - begin)), sum_of_sums[i]);
+      sums[i].count = hn::Add(sums[i].count, hn::ConvertTo(df, count));
+      sums[i].z = hn::Add(sums[i].z, hn::ConvertTo(df, hn::Sub(z, hn::Mul(count, z0))));
       sums[i].z_cols = hn::Add(
           sums[i].z_cols,
-          hn::MulAdd(hn::ConvertTo(kF, z), set(static_cast<float>(begin)), hn::ConvertTo(kF, from_begin)));
+          hn::MulAdd(hn::ConvertTo(df, z), set(static_cast<float>(begin)), hn::ConvertTo(df, from_begin)));
     }
   }
-  const V mm = set(1 / packing.units_per_mm);
+  const VF mm = set(1 / packing.units_per_mm);
   for (int i = 0; i < kPlanes; ++i) {
     sums[i].z = hn::Mul(sums[i].z, mm);
     sums[i].z_cols = hn::Mul(sums[i].z_cols, mm);

@@ -11,11 +11,11 @@
 #include <bit>
 #include <cstring>
 
-#include "saliency/level_planes.hpp"
-#include "saliency/plane_score-inl.hpp"
-#include "saliency/point_records-inl.hpp"
-#include "saliency/simd-inl.hpp"
-#include "saliency/sweep-inl.hpp"
+#include "saliency/simd/level_planes.hpp"
+#include "saliency/simd/plane_score-inl.hpp"
+#include "saliency/simd/row_prefix_sums-inl.hpp"
+#include "saliency/simd/sweep-inl.hpp"
+#include "saliency/simd/vectors-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace saccade {
@@ -25,7 +25,7 @@ namespace HWY_NAMESPACE {
 /// long.
 constexpr int kRunsFromReach = kLanes >= 16 ? 27 : kLanes >= 8 ? 11 : 7;
 
-/// A part of a window, relative to its centre, of at most PointRecords::kMostSide rows and columns.
+/// A part of a window, relative to its centre, of at most RowPrefixSums::kMostSide rows and columns.
 struct Block {
   int first_row, rows, first_col, cols;
 };
@@ -35,14 +35,14 @@ struct BlockCentres {
   int lanes[kLanes], count = 0;
   alignas(64) float z0[kLanes], per_col[kPlanes][kLanes], per_row[kPlanes][kLanes];
 
-  BlockCentres(M valid, const SweepPlanes& planes) {
+  BlockCentres(MF valid, const SweepPlanes& planes) {
     const unsigned bits = bits_of(valid);
     for (int lane = 0; lane < kLanes; ++lane)
       if (bits >> lane & 1) lanes[count++] = lane;
-    hn::Store(planes.z0, kF, z0);
+    hn::Store(planes.z0, df, z0);
     for (int i = 0; i < kPlanes; ++i) {
-      hn::Store(planes.per_col[i], kF, per_col[i]);
-      hn::Store(planes.per_row[i], kF, per_row[i]);
+      hn::Store(planes.per_col[i], df, per_col[i]);
+      hn::Store(planes.per_row[i], df, per_row[i]);
     }
   }
 };
@@ -55,7 +55,7 @@ static_assert(kChunk % kLanes == 0);
 /// rows[plane][v][lane] tells whether that in column i and row v is in front.
 struct Sides {
   static_assert(std::endian::native == std::endian::little);
-  alignas(64) std::int32_t rows[kPlanes][PointRecords::kMostSide][kLanes] = {};
+  alignas(64) std::int32_t rows[kPlanes][RowPrefixSums::kMostSide][kLanes] = {};
 
   /// Sets the bits of a chunk that begins in column `first`.
   HWY_INLINE void set_chunk(int plane, int v, int lane, int first, unsigned bits) {
@@ -70,13 +70,13 @@ HWY_INLINE void find_sides(const LevelPlanes& level, std::ptrdiff_t at, const Bl
                            const BlockCentres& centres, int lane, Sides& sides) {
   constexpr int kVectors = kChunk / kLanes;
   const std::ptrdiff_t stride = level.stride();
-  const V z0 = set(centres.z0[lane]);
-  V per_row[kPlanes];
+  const VF z0 = set(centres.z0[lane]);
+  VF per_row[kPlanes];
   for (int i = 0; i < kPlanes; ++i) per_row[i] = set(centres.per_row[i][lane]);
   for (int first = 0; first < block.cols; first += kChunk) {
-    V at_col[kPlanes][kVectors];
+    VF at_col[kPlanes][kVectors];
     for (int u = 0; u < kVectors; ++u) {
-      const V dc = hn::Iota(kF, static_cast<float>(block.first_col + first + u * kLanes));
+      const VF dc = hn::Iota(df, static_cast<float>(block.first_col + first + u * kLanes));
       for (int i = 0; i < kPlanes; ++i) at_col[i][u] = hn::Mul(set(centres.per_col[i][lane]), dc);
     }
     const std::ptrdiff_t begin = at + lane + block.first_row * stride + block.first_col + first;
@@ -84,10 +84,10 @@ HWY_INLINE void find_sides(const LevelPlanes& level, std::ptrdiff_t at, const Bl
     const float* inverse = level.plane(LevelPlanes::kInverse) + begin;
     const float* row = kNumbers.value + kNumbers.kLargest + block.first_row;
     for (int v = 0; v < block.rows; ++v, depth += stride, inverse += stride) {
-      const V dr = set(row[v]);
+      const VF dr = set(row[v]);
       unsigned bits[kPlanes] = {};
       for (int u = 0; u < kVectors; ++u) {
-        const V q = in_register(hn::Mul(hn::Sub(load(depth + u * kLanes), z0), load(inverse + u * kLanes)));
+        const VF q = in_register(hn::Mul(hn::Sub(load(depth + u * kLanes), z0), load(inverse + u * kLanes)));
         for (int i = 0; i < kPlanes; ++i)
           bits[i] |= bits_of(hn::Gt(q, hn::MulAdd(per_row[i], dr, at_col[i][u]))) << (u * kLanes);
       }
@@ -98,60 +98,60 @@ HWY_INLINE void find_sides(const LevelPlanes& level, std::ptrdiff_t at, const Bl
 
 /// Where the records are: that of the first column and row v of the first lane's block is row_offset[v] bytes
 /// from base, those of the other lanes follow it.
-struct BlockRecords {
+struct BlockPrefixSums {
   const char* base;
-  std::int32_t row_offset[PointRecords::kMostSide];
+  std::int32_t row_offset[RowPrefixSums::kMostSide];
 
-  BlockRecords(const PointRecords& records, const Block& block, int row, int col) : base(records.base()) {
+  BlockPrefixSums(const RowPrefixSums& records, const Block& block, int row, int col) : base(records.base()) {
     for (int v = 0; v < block.rows; ++v)
       row_offset[v] = records.offset(row + block.first_row + v, col + block.first_col);
   }
-  HWY_INLINE W row_offsets(int v) const {
-    const W lanes = hn::Mul(hn::Iota(kWhole, 0), hn::Set(kWhole, PointRecords::kBytes));
-    return hn::Add(lanes, hn::Set(kWhole, row_offset[v]));
+  HWY_INLINE VI row_offsets(int v) const {
+    const VI lanes = hn::Mul(hn::Iota(di, 0), hn::Set(di, RowPrefixSums::kBytes));
+    return hn::Add(lanes, hn::Set(di, row_offset[v]));
   }
 };
 
 /// How far the record after n columns is from that of the first; `power` = 2^n.
-HWY_INLINE W record_offset(W power) {
-  constexpr int kMantissaBits = 23, kBias = 127, kSize = std::countr_zero(unsigned{PointRecords::kBytes});
+HWY_INLINE VI entry_offset(VI power) {
+  constexpr int kMantissaBits = 23, kBias = 127, kSize = std::countr_zero(unsigned{RowPrefixSums::kBytes});
   // n is the exponent of the power as a float, of which 2^31 has the sign set.
-  const W exponent = hn::ShiftRight<kMantissaBits - kSize>(hn::BitCast(kWhole, hn::ConvertTo(kF, power)));
-  return hn::Sub(hn::And(exponent, hn::Set(kWhole, 0xff << kSize)), hn::Set(kWhole, kBias << kSize));
+  const VI exponent = hn::ShiftRight<kMantissaBits - kSize>(hn::BitCast(di, hn::ConvertTo(df, power)));
+  return hn::Sub(hn::And(exponent, hn::Set(di, 0xff << kSize)), hn::Set(di, kBias << kSize));
 }
 
-using RunEnds = std::int32_t[kPlanes][PointRecords::kMostSide][kLanes];
+using RunEnds = std::int32_t[kPlanes][RowPrefixSums::kMostSide][kLanes];
 
 /// Takes the run of ones that each row begins with out of `sides`, and puts into `ends` the offset of the
 /// record behind it. Where the points in front are at the end of the rows the two sides are exchanged first.
-HWY_INLINE void take_first_runs(const BlockRecords& records, const Block& block, const BlockCentres& centres,
-                                Sides& sides, RunEnds& ends) {
-  const W one = hn::Set(kWhole, 1);
-  const W all = hn::Set(kWhole, static_cast<std::int32_t>((1u << block.cols) - 1));
+HWY_INLINE void take_first_runs(const BlockPrefixSums& records, const Block& block,
+                                const BlockCentres& centres, Sides& sides, RunEnds& ends) {
+  const VI one = hn::Set(di, 1);
+  const VI all = hn::Set(di, static_cast<std::int32_t>((1u << block.cols) - 1));
   for (int i = 0; i < kPlanes; ++i) {
-    const M at_end = hn::Lt(hn::Load(kF, centres.per_col[i]), zero());
-    const W flip = hn::IfThenElseZero(hn::RebindMask(kWhole, at_end), all);
+    const MF at_end = hn::Lt(hn::Load(df, centres.per_col[i]), zero());
+    const VI flip = hn::IfThenElseZero(hn::RebindMask(di, at_end), all);
     for (int v = 0; v < block.rows; ++v) {
-      const W x = hn::And(hn::Xor(hn::Load(kWhole, sides.rows[i][v]), flip), all), next = hn::Add(x, one);
-      hn::Store(hn::And(x, next), kWhole, sides.rows[i][v]);
-      hn::Store(hn::Add(record_offset(hn::AndNot(x, next)), records.row_offsets(v)), kWhole, ends[i][v]);
+      const VI x = hn::And(hn::Xor(hn::Load(di, sides.rows[i][v]), flip), all), next = hn::Add(x, one);
+      hn::Store(hn::And(x, next), di, sides.rows[i][v]);
+      hn::Store(hn::Add(entry_offset(hn::AndNot(x, next)), records.row_offsets(v)), di, ends[i][v]);
     }
   }
 }
 
-using BlockSums = std::int32_t[kLanes][kPlanes][PointRecords::kNumbers];
+using BlockSums = std::int32_t[kLanes][kPlanes][RowPrefixSums::kNumbers];
 
 /// Starts the sums with the runs that rows begin with.
-HWY_INLINE void add_first_runs(const BlockRecords& records, const Block& block, const BlockCentres& centres,
-                               const RunEnds& ends, BlockSums& sums) {
+HWY_INLINE void add_first_runs(const BlockPrefixSums& records, const Block& block,
+                               const BlockCentres& centres, const RunEnds& ends, BlockSums& sums) {
   for (int n = 0; n < centres.count; ++n) {
     const int lane = centres.lanes[n];
-    RecordSum before;
+    EntrySum before;
     for (int v = 0; v < block.rows; ++v)
-      before.subtract(record_at(records.base, records.row_offset[v] + lane * PointRecords::kBytes));
-    RecordSum sum[kPlanes] = {before, before, before};
+      before.subtract(entry_at(records.base, records.row_offset[v] + lane * RowPrefixSums::kBytes));
+    EntrySum sum[kPlanes] = {before, before, before};
     for (int v = 0; v < block.rows; ++v)
-      for (int i = 0; i < kPlanes; ++i) sum[i].add(record_at(records.base, ends[i][v][lane]));
+      for (int i = 0; i < kPlanes; ++i) sum[i].add(entry_at(records.base, ends[i][v][lane]));
     for (int i = 0; i < kPlanes; ++i) sum[i].store(sums[lane][i]);
   }
 }
@@ -161,21 +161,21 @@ HWY_INLINE void add_first_runs(const BlockRecords& records, const Block& block, 
 class RunList {
  public:
   HWY_INLINE bool full() const { return size_ > kMost; }
-  HWY_INLINE void push(M some, W begins, W ends, W sums) {
+  HWY_INLINE void push(MF some, VI begins, VI ends, VI sums) {
     const LanePacker pack(some);
-    hn::StoreU(pack(begins), kWhole, begins_ + size_);
-    hn::StoreU(pack(ends), kWhole, ends_ + size_);
-    hn::StoreU(pack(sums), kWhole, sums_ + size_);
+    hn::StoreU(pack(begins), di, begins_ + size_);
+    hn::StoreU(pack(ends), di, ends_ + size_);
+    hn::StoreU(pack(sums), di, sums_ + size_);
     size_ += pack.size();
   }
   /// Adds the runs to their sums and empties the list.
   HWY_INLINE void add_to(BlockSums& sums, const char* records) {
     for (std::size_t i = 0; i < size_; ++i) {
       std::int32_t* const out = sums[0][0] + sums_[i];
-      RecordSum sum;
+      EntrySum sum;
       sum.add(out);
-      sum.add(record_at(records, ends_[i]));
-      sum.subtract(record_at(records, begins_[i]));
+      sum.add(entry_at(records, ends_[i]));
+      sum.subtract(entry_at(records, begins_[i]));
       sum.store(out);
     }
     size_ = 0;
@@ -189,26 +189,26 @@ class RunList {
 
 /// Adds the runs that take_first_runs() has left: few for the planes across the surface, many for that along
 /// it, which noise splits.
-HWY_INLINE void add_other_runs(const BlockRecords& records, const Block& block, const Sides& sides,
+HWY_INLINE void add_other_runs(const BlockPrefixSums& records, const Block& block, const Sides& sides,
                                BlockSums& sums) {
   RunList runs;
-  const W lanes = hn::Mul(hn::Iota(kWhole, 0), hn::Set(kWhole, kPlanes * PointRecords::kNumbers));
+  const VI lanes = hn::Mul(hn::Iota(di, 0), hn::Set(di, kPlanes * RowPrefixSums::kNumbers));
   for (int i = 0; i < kPlanes; ++i) {
-    const W sum = hn::Add(lanes, hn::Set(kWhole, i * PointRecords::kNumbers));
+    const VI sum = hn::Add(lanes, hn::Set(di, i * RowPrefixSums::kNumbers));
     for (int v = 0; v < block.rows; ++v) {
-      W rest = hn::Load(kWhole, sides.rows[i][v]);
-      auto some = hn::Ne(rest, hn::Zero(kWhole));
-      if (hn::AllFalse(kWhole, some)) continue;
-      const W row = records.row_offsets(v);
+      VI rest = hn::Load(di, sides.rows[i][v]);
+      auto some = hn::Ne(rest, hn::Zero(di));
+      if (hn::AllFalse(di, some)) continue;
+      const VI row = records.row_offsets(v);
       do {
-        const W begin = hn::And(rest, hn::Neg(rest));
-        const W carried = hn::Add(rest, begin);  // the first run becomes 0, the bit after it 1
-        runs.push(hn::RebindMask(kF, some), hn::Add(record_offset(begin), row),
-                  hn::Add(record_offset(hn::AndNot(rest, carried)), row), sum);
+        const VI begin = hn::And(rest, hn::Neg(rest));
+        const VI carried = hn::Add(rest, begin);  // the first run becomes 0, the bit after it 1
+        runs.push(hn::RebindMask(df, some), hn::Add(entry_offset(begin), row),
+                  hn::Add(entry_offset(hn::AndNot(rest, carried)), row), sum);
         if (runs.full()) runs.add_to(sums, records.base);
         rest = hn::And(rest, carried);
-        some = hn::Ne(rest, hn::Zero(kWhole));
-      } while (!hn::AllFalse(kWhole, some));
+        some = hn::Ne(rest, hn::Zero(di));
+      } while (!hn::AllFalse(di, some));
     }
   }
   runs.add_to(sums, records.base);
@@ -216,51 +216,51 @@ HWY_INLINE void add_other_runs(const BlockRecords& records, const Block& block, 
 
 /// Adds what a block around the centres at (row, col..) has to `sums`, in the units of the records; z0 is the
 /// centres' depth.
-HWY_INLINE void add_block(const BlockSums& block_sums, const Block& block, int row, int col, W z0,
+HWY_INLINE void add_block(const BlockSums& block_sums, const Block& block, int row, int col, VI z0,
                           HalfSums* sums) {
-  const W index = hn::Mul(hn::Iota(kWhole, 0), hn::Set(kWhole, kPlanes * PointRecords::kNumbers));
+  const VI index = hn::Mul(hn::Iota(di, 0), hn::Set(di, kPlanes * RowPrefixSums::kNumbers));
   // Sums of z times rows and columns fit into 32 bits only about the middle of the block.
   const int middle_row = block.first_row + block.rows / 2, middle_col = block.first_col + block.cols / 2;
-  const W rows = hn::Set(kWhole, row + middle_row), cols = hn::Iota(kWhole, col + middle_col);
-  const auto real = [](W v) HWY_ATTR { return hn::ConvertTo(kF, v); };
+  const VI rows = hn::Set(di, row + middle_row), cols = hn::Iota(di, col + middle_col);
+  const auto real = [](VI v) HWY_ATTR { return hn::ConvertTo(df, v); };
   for (int i = 0; i < kPlanes; ++i) {
-    const auto get = [&](PointRecords::Number number)
-                         HWY_ATTR { return hn::GatherIndex(kWhole, block_sums[0][i] + number, index); };
-    const W count = get(PointRecords::kCount), z = get(PointRecords::kZ);
-    const V z_rows = real(hn::Sub(get(PointRecords::kZRows), hn::Mul(z, rows)));
-    const V z_cols = real(hn::Sub(get(PointRecords::kZCols), hn::Mul(z, cols)));
+    const auto get = [&](RowPrefixSums::Number number)
+                         HWY_ATTR { return hn::GatherIndex(di, block_sums[0][i] + number, index); };
+    const VI count = get(RowPrefixSums::kCount), z = get(RowPrefixSums::kZ);
+    const VF z_rows = real(hn::Sub(get(RowPrefixSums::kZRows), hn::Mul(z, rows)));
+    const VF z_cols = real(hn::Sub(get(RowPrefixSums::kZCols), hn::Mul(z, cols)));
     HalfSums& sum = sums[i];
     sum.count = hn::Add(sum.count, real(count));
     sum.z = hn::Add(sum.z, real(hn::Sub(z, hn::Mul(count, z0))));
     sum.z_rows = hn::Add(sum.z_rows, hn::MulAdd(real(z), set(static_cast<float>(middle_row)), z_rows));
     sum.z_cols = hn::Add(sum.z_cols, hn::MulAdd(real(z), set(static_cast<float>(middle_col)), z_cols));
-    sum.normal = sum.normal + Vec3{real(get(PointRecords::kNormalX)), real(get(PointRecords::kNormalY)),
-                                   real(get(PointRecords::kNormalZ))};
+    sum.normal = sum.normal + Vec3{real(get(RowPrefixSums::kNormalX)), real(get(RowPrefixSums::kNormalY)),
+                                   real(get(RowPrefixSums::kNormalZ))};
   }
 }
 
 /// What sum_in_front() gives, or the other half of the window: which one is the same to the score.
 ///
 /// A plane through the centre splits most rows of a window once, into a run of points in front and one
-/// behind. So the sums over a half need few additions a row, from records of running sums (PointRecords),
+/// behind. So the sums over a half need few additions a row, from records of running sums (RowPrefixSums),
 /// however long the row is; what is left to do for every point is the comparison that decides its side. The
 /// sums are exact.
-HWY_NOINLINE void sum_runs_in_front(const LevelPlanes& level, const PointRecords& records, int row, int col,
+HWY_NOINLINE void sum_runs_in_front(const LevelPlanes& level, const RowPrefixSums& records, int row, int col,
                                     const Window& window, const Centres& centres, const Vec3* gamma,
                                     HalfSums* sums) {
   const std::ptrdiff_t at = level.at(row, col);
-  const W packed = hn::BitCast(kWhole, load(level.plane(LevelPlanes::kPacked) + at));
-  const W z0 = hn::And(packed, hn::Set(kWhole, level.packing.depth_mask()));
+  const VI packed = hn::BitCast(di, load(level.plane(LevelPlanes::kPacked) + at));
+  const VI z0 = hn::And(packed, hn::Set(di, level.packing.depth_mask()));
   const BlockCentres points(points_at(level, row, col),
                             SweepPlanes(gamma, centres, load(level.plane(LevelPlanes::kDepth) + at)));
   for (int i = 0; i < kPlanes; ++i) sums[i] = {zero(), zero(), zero(), zero(), {zero(), zero(), zero()}};
   alignas(64) BlockSums block_sums = {};
   alignas(64) RunEnds ends;
-  for (int first_row = window.first_row; first_row <= window.last_row; first_row += PointRecords::kMostSide)
-    for (int first_col = -window.reach; first_col <= window.reach; first_col += PointRecords::kMostSide) {
-      const Block block{first_row, std::min(PointRecords::kMostSide, window.last_row + 1 - first_row),
-                        first_col, std::min(PointRecords::kMostSide, window.reach + 1 - first_col)};
-      const BlockRecords block_records(records, block, row, col);
+  for (int first_row = window.first_row; first_row <= window.last_row; first_row += RowPrefixSums::kMostSide)
+    for (int first_col = -window.reach; first_col <= window.reach; first_col += RowPrefixSums::kMostSide) {
+      const Block block{first_row, std::min(RowPrefixSums::kMostSide, window.last_row + 1 - first_row),
+                        first_col, std::min(RowPrefixSums::kMostSide, window.reach + 1 - first_col)};
+      const BlockPrefixSums block_records(records, block, row, col);
       Sides sides;
       for (int n = 0; n < points.count; ++n) find_sides(level, at, block, points, points.lanes[n], sides);
       take_first_runs(block_records, block, points, sides, ends);
@@ -268,15 +268,15 @@ HWY_NOINLINE void sum_runs_in_front(const LevelPlanes& level, const PointRecords
       add_other_runs(block_records, block, sides, block_sums);
       add_block(block_sums, block, row, col, z0, sums);
     }
-  const V mm = set(1 / level.packing.units_per_mm);
-  const V normal_unit = set(1.0f / normal_units(window.reach));
+  const VF mm = set(1 / level.packing.units_per_mm);
+  const VF normal_unit = set(1.0f / normal_units(window.reach));
   for (int i = 0; i < kPlanes; ++i) {
     sums[i].z = hn::Mul(sums[i].z, mm);
     sums[i].z_rows = hn::Mul(sums[i].z_rows, mm);
     sums[i].z_cols = hn::Mul(sums[i].z_cols, mm);
     sums[i].normal = sums[i].normal * normal_unit;
     // The centre itself lies behind each plane, hence in a half that was exchanged for the one in front.
-    const M exchanged = hn::Lt(hn::Load(kF, points.per_col[i]), zero());
+    const MF exchanged = hn::Lt(hn::Load(df, points.per_col[i]), zero());
     const auto centre = [&](LevelPlanes::Plane plane)
                             HWY_ATTR { return hn::IfThenElseZero(exchanged, load(level.plane(plane) + at)); };
     sums[i].count = hn::Sub(sums[i].count, hn::IfThenElseZero(exchanged, set(1.0f)));
