@@ -30,9 +30,8 @@ std::string run_command_line(const std::string& source, const Settings& settings
   shown.log_level = Settings{}.log_level;
   std::string line = "saccade run " + shell_word(source) + " --out out/view";
   for (const SettingSpec& spec : setting_specs()) {
-    const bool chosen = spec.key == "levels" && shown.levels_chosen;
+    if (is_default(spec, shown)) continue;
     const std::string value = spec.print(shown);
-    if (value == spec.print(Settings{}) && !chosen) continue;
     line += " --" + std::string(spec.key) + (spec.is_switch() ? "" : " " + shell_word(value));
   }
   return line;

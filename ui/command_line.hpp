@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <string>
 
-#include "core/settings.hpp"
+#include "settings/settings.hpp"
 
 namespace saccade {
 

@@ -8,16 +8,6 @@
 namespace saccade {
 namespace {
 
-bool same_model(const Settings& a, const Settings& b) {
-  return a.model == b.model && a.kernel == b.kernel && a.first_level == b.first_level &&
-         a.last_level == b.last_level && a.length_scale == b.length_scale &&
-         a.normalisation == b.normalisation && a.simd == b.simd;
-}
-
-bool same_selector(const Settings& a, const Settings& b) {
-  return a.selector == b.selector && a.fixations == b.fixations && a.foa == b.foa;
-}
-
 void copy_maps(const SaliencyMaps& from, SaliencyMaps& to) {
   from.master.copyTo(to.master);
   from.normals.copyTo(to.normals);
@@ -35,8 +25,8 @@ void copy_attention(const Attention& from, Attention& to) {
 
 bool has_maps(const Computed& of, Settings settings, RequestedOutputs wants) {
   settings.last_level = last_level_for(settings, of.result.frame.size());
-  return of.error.empty() && same_model(of.settings, settings) && of.wants.levels == wants.levels &&
-         of.wants.normals == wants.normals;
+  return of.error.empty() && same_values(SettingScope::model, of.settings, settings) &&
+         of.wants.levels == wants.levels && of.wants.normals == wants.normals;
 }
 
 void Engine::compute(const Settings& wanted, RequestedOutputs wants, const Computed* last, Computed& out) {
@@ -49,7 +39,8 @@ void Engine::compute(const Settings& wanted, RequestedOutputs wants, const Compu
   try {
     prepare(settings, frame.size());
     find_maps(settings, wants, last, out);
-    if (last != nullptr && has_maps(*last, settings, wants) && same_selector(last->settings, settings)) {
+    if (last != nullptr && has_maps(*last, settings, wants) &&
+        same_values(SettingScope::attention, last->settings, settings)) {
       copy_attention(last->result.attention, out.result.attention);
       out.outlines = last->outlines;
       return;
@@ -80,11 +71,10 @@ void Engine::find_maps(const Settings& settings, RequestedOutputs wants, const C
 }
 
 void Engine::prepare(const Settings& settings, cv::Size image) {
-  Settings checked = settings;
-  checked.dump.clear();  // what is wanted besides the map is left empty where a model does not have it
-  check_model(checked, image);
-  if (!model_ || !same_model(settings, made_)) model_ = make_model(settings, pool_);
-  if (!selector_ || !same_selector(settings, made_)) selector_ = make_selector(settings);
+  check_model(settings, image);
+  if (!model_ || !same_values(SettingScope::model, settings, made_)) model_ = make_model(settings, pool_);
+  if (!selector_ || !same_values(SettingScope::attention, settings, made_))
+    selector_ = make_selector(settings);
   made_ = settings;
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "core/sensor_controls.hpp"
-#include "core/settings.hpp"
+#include "core/sensor_settings.hpp"
 
 namespace saccade {
 

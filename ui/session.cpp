@@ -127,7 +127,7 @@ void Session::run(const OpenRequest& request) {
   PipelineOptions options;
   options.policy = FramePolicy::newest;
   options.slots = kSlots;
-  if (info.live) options.selection = {request.range.start, request.range.every, request.range.limit};
+  if (info.live) options.frames = {request.range.start, request.range.every, request.range.limit};
   options.on_rejected = [this](std::int64_t index, const std::string& reason) {
     change([&](SessionState& state) {
       state.rejected_index = index;

@@ -1,11 +1,9 @@
 #pragma once
 
-#include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
-#include "core/settings.hpp"
+#include "settings/settings.hpp"
 
 namespace saccade {
 
@@ -18,9 +16,9 @@ struct Tuning {
 /// True if both print the same values for every setting.
 bool same_settings(const Settings& a, const Settings& b);
 
-/// The keys that A and B have each for itself. All others are of the source and of the program, and A's hold
-/// for both.
-std::span<const std::string_view> tuned_keys();
+/// Whether A and B have the setting each for itself: those of model and attention. A's value of every other
+/// one, which concerns source and program, holds for both.
+bool is_tuned(const SettingSpec& spec);
 
 /// Makes the tuned settings of `to` those of `from`; the others stay.
 void copy_tuned(const Settings& from, Settings& to);
@@ -31,10 +29,9 @@ void swap_sides(Tuning& tuning);
 void share_source(Tuning& tuning);
 
 /// Reads a TOML file into A, or into B: what the file does not say of the tuned settings becomes the default;
-/// what it says of camera, sensor and instruction set
-/// holds for both sides. Returns the keys of the file that say
-/// something else than what holds and that a window does not take up while it runs, such as "workers". Throws
-/// as load_settings(); the tuning is then as it was.
+/// what it says of camera and sensor holds for both sides. Returns the keys of the file that say something
+/// else than what holds and that a window does not take up while it runs, such as "workers". Throws as
+/// load_settings(); the tuning is then as it was.
 std::vector<std::string> load_tuning(Tuning& tuning, bool into_b, const std::string& path);
 
 }  // namespace saccade

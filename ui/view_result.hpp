@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/settings.hpp"
+#include "settings/settings.hpp"
 #include "output/overlay.hpp"
 #include "pipeline/result.hpp"
 

@@ -26,11 +26,7 @@ void remember_source(ViewState& state, const std::string& uri) {
   if (state.recent.size() > kMostRecent) state.recent.resize(kMostRecent);
 }
 
-std::vector<std::string> choices_of(std::string_view key) {
-  for (const SettingSpec& spec : setting_specs())
-    if (spec.key == key) return spec.words;
-  return {};
-}
+std::vector<std::string> choices_of(std::string_view key) { return setting_spec(key).words; }
 
 void next_model(Settings& settings, int step) {
   settings.model = next_word(choices_of("model"), settings.model, step);

@@ -62,11 +62,9 @@ Json range_json(const std::optional<ValueRange>& range) {
 // What the tuning panel sets; which frames and how the program runs is said anew each time. Default levels
 // are left out: to read them would make them chosen ones.
 Json settings_json(const Settings& settings) {
-  const auto tuned = tuned_keys();
   Json json = Json::object();
   for (const SettingSpec& spec : setting_specs())
-    if (std::find(tuned.begin(), tuned.end(), spec.key) != tuned.end() &&
-        (spec.key != "levels" || settings.levels_chosen))
+    if (is_tuned(spec) && (!spec.chosen || spec.chosen(settings)))
       json[std::string(spec.key)] = spec.print(settings);
   return json;
 }

@@ -11,7 +11,7 @@
 
 #include "core/intrinsics.hpp"
 #include "core/sensor_controls.hpp"
-#include "core/settings.hpp"
+#include "core/sensor_settings.hpp"
 #include "drivers/openni2/openni2_runtime.hpp"
 
 namespace saccade {

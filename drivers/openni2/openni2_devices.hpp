@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "core/settings.hpp"
+#include "core/sensor_settings.hpp"
 #include "drivers/openni2/openni2_runtime.hpp"
 
 namespace saccade {

@@ -5,7 +5,7 @@
 
 #include <OpenNI.h>
 
-#include "core/settings.hpp"
+#include "core/sensor_settings.hpp"
 
 namespace saccade {
 

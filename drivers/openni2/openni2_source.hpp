@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/frame_source.hpp"
-#include "core/settings.hpp"
+#include "core/sensor_settings.hpp"
 #include "drivers/openni2/frame_pairing.hpp"
 #include "drivers/openni2/openni2_device.hpp"
 #include "drivers/openni2/stream_clock.hpp"

@@ -58,7 +58,7 @@ Measurement measure(const SensorSize& sensor, const Settings& settings, double s
   constexpr int kLeastFrames = 5;
   Measurement measurement;
   measurement.sensor = sensor;
-  const auto processor = make_processor(settings);
+  const auto processor = make_processor({settings, settings, {}, worker_count(settings)});
   Result result;
   result.frame = table_frame(sensor.size);
   measurement.valid = static_cast<double>(cv::countNonZero(result.frame.depth_mm)) / sensor.size.area();
@@ -73,7 +73,7 @@ Measurement measure(const SensorSize& sensor, const Settings& settings, double s
   }
   if (sensor.size == cv::Size(640, 480) && settings.model == "symmetry3d") {
     const auto reference_begin = Clock::now();
-    reference::symmetry3d(result.frame.depth_mm, result.frame.intrinsics, Symmetry3dParams::from(settings));
+    reference::symmetry3d(result.frame.depth_mm, result.frame.intrinsics, settings);
     measurement.reference_ms = milliseconds_since(reference_begin);
   }
   return measurement;
@@ -121,7 +121,7 @@ void bench(const Settings& settings, double seconds) {
   const std::string_view instructions = choose_simd_stages(settings.simd).name;
   const int workers = worker_count(settings);
   const cv::Size largest = kSensorSizes.back().size;
-  check_levels(largest, Symmetry3dParams::from(settings));
+  check_levels(largest, settings);
   if (!settings.json)
     fmt::print(
         "{}, k = {}, levels {}..{}, {} worker{}, {}\n"
@@ -152,7 +152,8 @@ void add_bench_command(CLI::App& app, std::function<void()>& action) {
   command.add_option("--seconds", *seconds, "time spent on each image size [2]")
       ->type_name("S")
       ->check(CLI::Range(0.0, 3600.0));
-  const auto options = std::make_shared<SettingsOptions>(command, sensor_keys_and({}));
+  const auto options = std::make_shared<SettingsOptions>(
+      command, AcceptedSettings{{SettingScope::model, SettingScope::attention}, {"json", "workers"}});
   command.callback(
       [options, seconds, &action] { action = [options, seconds] { bench(options->resolve(), *seconds); }; });
 }

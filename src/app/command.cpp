@@ -7,7 +7,6 @@
 
 #include "core/error.hpp"
 #include "models/model.hpp"
-#include "saliency/params.hpp"
 
 namespace saccade {
 namespace fs = std::filesystem;
@@ -51,8 +50,9 @@ void fit_default_levels(Settings& settings, SourceInfo& source) {
 void fit_to_depth(Settings& settings, SourceInfo& source) {
   if (source.has_depth) return;
   if (needs_depth(settings.model))
-    throw usage_error(fmt::format("model {} needs depth, and there is none", settings.model), source.uri,
-                      "choose a model of the image: --model symmetry2d, colour_symmetry2d, radial2d or itti");
+    throw usage_error(
+        fmt::format("model {} needs depth, and there is none", settings.model), source.uri,
+        fmt::format("choose a model of the image with --model: {}", fmt::join(model_names(false), ", ")));
   if (settings.selector != Selector::proto) return;
   settings.selector = Selector::wta;
   source.notes.emplace_back("the selector proto needs depth; wta chooses the points");

@@ -3,7 +3,7 @@
 #include <filesystem>
 
 #include "core/frame_source.hpp"
-#include "core/settings.hpp"
+#include "settings/settings.hpp"
 
 namespace saccade {
 

@@ -37,13 +37,12 @@ Error interrupted(const fs::path& folder) {
   return failed("interrupted", folder.string(), "the same command goes on from here");
 }
 
-// How many frames start, every and frames select.
-std::int64_t selected_frames(const SourceInfo& source, const Settings& settings) {
+// The number of frames to evaluate.
+std::int64_t count_frames(const SourceInfo& source, const FrameSettings& settings) {
   if (source.live || !source.frame_count)
     throw usage_error("not a data set", source.uri, "images with labels are needed, not a live sensor");
   check_start(source, settings.start);
-  const std::int64_t all = (*source.frame_count - settings.start + settings.every - 1) / settings.every;
-  return settings.frames > 0 ? std::min(all, settings.frames) : all;
+  return selected_frames(settings, *source.frame_count);
 }
 
 EvalPlan make_plan(const EvalArguments& arguments, const Settings& settings, const SourceInfo& source) {
@@ -51,7 +50,7 @@ EvalPlan make_plan(const EvalArguments& arguments, const Settings& settings, con
   plan.dataset = arguments.dataset;
   plan.settings = settings;
   plan.points = arguments.points;
-  plan.positions = selected_frames(source, settings);
+  plan.positions = count_frames(source, settings);
   parse_lists(plan, arguments.models, arguments.kernels, arguments.selectors);
   parse_shard(plan, arguments.shard);
   if (plan.shard > plan.positions)
@@ -225,7 +224,10 @@ void eval_merge(const EvalArguments& arguments, const Settings& settings) {
 void add_eval_command(CLI::App& app, std::function<void()>& action) {
   struct State {
     explicit State(CLI::App& command)
-        : options(command, sensor_keys_and({"model", "kernel", "selector", "fixations", "dump"})) {}
+        : options(command, {{SettingScope::model, SettingScope::attention, SettingScope::frames,
+                             SettingScope::program},
+                            {"json"},
+                            {kPlanKeys.begin(), kPlanKeys.end()}}) {}
     EvalArguments arguments;
     SettingsOptions options;
   };

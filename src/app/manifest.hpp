@@ -9,9 +9,9 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "core/frame_source.hpp"
-#include "core/settings.hpp"
 #include "pipeline/ledger.hpp"
 #include "pipeline/stage_statistics.hpp"
+#include "settings/settings.hpp"
 
 namespace saccade {
 

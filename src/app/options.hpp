@@ -1,7 +1,5 @@
 #pragma once
 
-#include <memory>
-#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -9,30 +7,38 @@
 
 #include <CLI/CLI.hpp>
 
-#include "core/settings.hpp"
+#include "settings/settings.hpp"
 
 namespace saccade {
 
-/// The settings as options of one subcommand: every SettingSpec as --key, and --config FILE. The file is read
-/// first and the options are laid over it, wherever they stand on the command line.
-class SettingsOptions {
- public:
-  /// Adds the options to `command`, which must not outlive this, except for the keys `left_out`: a file may
-  /// hold these too.
-  explicit SettingsOptions(CLI::App& command, const std::set<std::string_view>& left_out = {});
+/// Which settings a command accepts as options: those of some scopes, and some keys of other scopes, without
+/// some keys.
+struct AcceptedSettings {
+  std::vector<SettingScope> scopes;
+  std::vector<std::string_view> also{}, except{};
 
-  /// After parsing: `base`, then the file, then the options. Throws Error (usage or unreadable).
-  Settings resolve(const Settings& base = {}) const;
-
- private:
-  void add_switch(CLI::App& command, const SettingSpec& spec);
-
-  std::string config_;
-  std::vector<std::pair<std::string, std::string>>
-      given_;  // key and value, in their order on the command line
+  bool contains(const SettingSpec& spec) const;
 };
 
-/// The keys of live sensors and `also`: what a command without a live source leaves out.
-std::set<std::string_view> sensor_keys_and(std::set<std::string_view> also);
+/// The settings as options --key of one command, in the groups of their scopes, and --config FILE. The file
+/// is read first and the options are laid over it, wherever they stand on the command line.
+class SettingsOptions {
+ public:
+  /// Adds the options to `command`, which must not outlive this. A file may also hold the settings that the
+  /// command does not accept.
+  SettingsOptions(CLI::App& command, const AcceptedSettings& accepted);
+
+  /// After parsing: `base`, then the file, then the options. Throws Error (usage or unreadable), also for an
+  /// option that is a setting which the command does not accept.
+  [[nodiscard]] Settings resolve(const Settings& base = {}) const;
+
+ private:
+  CLI::Option* add(CLI::App& command, const SettingSpec& spec, const std::string& default_text);
+
+  std::string command_, config_;
+  std::vector<std::pair<const SettingSpec*, std::string>>
+      given_;  // setting and value, in their order on the command line
+  AcceptedSettings accepted_;
+};
 
 }  // namespace saccade

@@ -11,9 +11,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
-#include <set>
 #include <string>
-#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
@@ -43,11 +41,12 @@ constexpr auto kLinePeriod = std::chrono::milliseconds(200);
 // One `saccade record`, from open source to closed file.
 class RecordRun {
  public:
-  explicit RecordRun(const RecordArguments& arguments) : arguments_(arguments) {}
+  RecordRun(const RecordArguments& arguments, const Settings& settings)
+      : arguments_(arguments), settings_(settings) {}
 
   void execute() {
     Interrupt interrupt([this] { stop(); });
-    const auto source = open_source(arguments_.source, arguments_.sensor);
+    const auto source = open_source(arguments_.source, settings_.sensor);
     const SourceInfo& info = source->info();
     for (const std::string& note : info.notes) spdlog::warn("{}: {}", info.uri, note);
     live_ = info.live;
@@ -96,7 +95,7 @@ class RecordRun {
     });
     Frame frame;
     std::int64_t first_us = 0;
-    while (!stopped_ && !(arguments_.frames > 0 && taken_ >= arguments_.frames)) {
+    while (!stopped_ && !(settings_.frames > 0 && taken_ >= settings_.frames)) {
       if (live_ && arguments_.duration_s > 0 && seconds() >= arguments_.duration_s) return;
       const ReadResult result = source.read(frame, kReadTimeout);
       show_line(recorder);
@@ -120,7 +119,7 @@ class RecordRun {
 
   double seconds() const { return std::chrono::duration<double>(Clock::now() - begin_).count(); }
 
-  bool has_line() const { return !arguments_.quiet && ::isatty(STDERR_FILENO) == 1; }
+  bool has_line() const { return !settings_.quiet && ::isatty(STDERR_FILENO) == 1; }
 
   void show_line(const OniRecorder& recorder) {
     const auto now = Clock::now();
@@ -153,7 +152,7 @@ class RecordRun {
     if (counts_.out_of_range_pixels > 0)
       spdlog::warn("{}: {} pixels were too far for the unit of the file and have no reading", arguments_.file,
                    counts_.out_of_range_pixels);
-    if (arguments_.json) {
+    if (settings_.json) {
       nlohmann::ordered_json json = {{"status", interrupted_ ? "interrupted" : "done"},
                                      {"file", arguments_.file},
                                      {"frames", counts_.frames},
@@ -165,7 +164,7 @@ class RecordRun {
                                      {"wall_s", wall_s}};
       if (device_) json["device"] = device_json(*device_);
       fmt::print("{}\n", json.dump());
-    } else if (!arguments_.quiet) {
+    } else if (!settings_.quiet) {
       fmt::print("{} frame{} in {:.2f} s, {}, {} dropped{}{}{}; see {}\n", counts_.frames,
                  counts_.frames == 1 ? "" : "s", wall_s, megabytes(static_cast<double>(writer.size_bytes())),
                  counts_.dropped, rejected_ > 0 ? fmt::format(", {} rejected", rejected_) : "",
@@ -200,6 +199,7 @@ class RecordRun {
   }
 
   const RecordArguments& arguments_;
+  const Settings& settings_;
   bool live_ = false, interrupted_ = false;
   std::int64_t taken_ = 0, rejected_ = 0;
   std::string first_rejected_;
@@ -213,9 +213,9 @@ class RecordRun {
 
 }  // namespace
 
-void record(const RecordArguments& arguments) {
+void record(const RecordArguments& arguments, const Settings& settings) {
   cv::setNumThreads(1);
-  RecordRun(arguments).execute();
+  RecordRun(arguments, settings).execute();
 }
 
 void add_record_command(CLI::App& app, std::function<void()>& action) {
@@ -227,9 +227,6 @@ void add_record_command(CLI::App& app, std::function<void()>& action) {
   command.add_option("--duration", a.duration_s, "stop after so many seconds; 0 = do not")
       ->type_name("S")
       ->check(CLI::Range(0.0, 1e9));
-  command.add_option("--frames", a.frames, "stop after so many frames; 0 = do not")
-      ->type_name("N")
-      ->check(CLI::Range(std::int64_t{0}, std::int64_t{1'000'000'000}));
   const std::map<std::string, OniDepthCodec> depth = {
       {"16zT", OniDepthCodec::z16t}, {"16zP", OniDepthCodec::z16p}, {"none", OniDepthCodec::none}};
   const std::map<std::string, OniColourCodec> colour = {
@@ -248,18 +245,14 @@ void add_record_command(CLI::App& app, std::function<void()>& action) {
           "step of stored depth: auto (default: 0.1 mm if the first frame has fractions), 1mm or 100um")
       ->type_name("UNIT")
       ->transform(CLI::CheckedTransformer(unit, CLI::ignore_case).description(""));
-  std::set<std::string_view> others;
-  for (const SettingSpec& spec : setting_specs()) others.insert(spec.key);
-  for (const std::string_view key : kSensorKeys) others.erase(key);
-  const auto settings = std::make_shared<SettingsOptions>(command, others);
   command.add_flag("--force", a.options.overwrite, "replace FILE if it exists");
-  command.add_flag("--quiet", a.quiet, "no progress and no summary, only warnings and errors");
-  command.add_flag("--json", a.json, "the summary in JSON on standard output");
-  command.callback([arguments, settings, &action] {
-    action = [arguments, settings] {
-      arguments->sensor = settings->resolve().sensor;
-      if (arguments->quiet) spdlog::set_level(spdlog::level::warn);
-      record(*arguments);
+  const auto options = std::make_shared<SettingsOptions>(
+      command, AcceptedSettings{{SettingScope::sensor}, {"frames", "json", "quiet"}});
+  command.callback([arguments, options, &action] {
+    action = [arguments, options] {
+      const Settings settings = options->resolve();
+      set_log_level(settings);
+      record(*arguments, settings);
     };
   });
 }

@@ -36,14 +36,10 @@ constexpr int kSlotsInFlight = 4;  // one captured, one computed, one waiting at
 constexpr int kWriterThreads = 2;
 constexpr std::size_t kRejectedListed = 10'000;  // so that hours with a bad sensor do not fill the memory
 
-// How many frames will come, if that can be known.
-std::optional<std::int64_t> expected_frames(const SourceInfo& source, const Settings& settings) {
-  std::optional<std::int64_t> expected;
-  if (source.frame_count)
-    expected = std::max<std::int64_t>(
-        0, (*source.frame_count - settings.start + settings.every - 1) / settings.every);
-  if (settings.frames > 0) expected = std::min(expected.value_or(settings.frames), settings.frames);
-  return expected;
+// The number of frames to come, if that can be known.
+std::optional<std::int64_t> expected_frames(const SourceInfo& source, const FrameSettings& settings) {
+  if (source.frame_count) return selected_frames(settings, *source.frame_count);
+  return settings.frames > 0 ? std::optional(settings.frames) : std::nullopt;
 }
 
 // One `saccade run`, from open source to manifest.
@@ -63,8 +59,10 @@ class Run {
     fit_to_depth(report_.settings, report_.source);
     fit_default_levels(report_.settings, report_.source);
     check_model(report_.settings, report_.source.size);
+    check_dump(report_.settings, report_.settings.model);
     check_start(report_.source, report_.settings.start);
-    auto processor = make_processor(report_.settings);
+    auto processor = make_processor(
+        {report_.settings, report_.settings, requested_outputs(report_.settings), report_.workers});
     make_output_folder(folder_);
     write_manifest();
     try {
@@ -88,8 +86,7 @@ class Run {
     const auto begin = std::chrono::steady_clock::now();
     const int writers = settings.dump.empty() ? 0 : kWriterThreads;
     PipelineOptions options;
-    options.selection = {settings.start, settings.every, settings.frames};
-    options.intrinsics = settings.intrinsics;
+    options.frames = settings;
     options.slots = kSlotsInFlight + writers;
     const bool live = report_.source.live;
     if (live) {
@@ -240,7 +237,9 @@ void add_run_command(CLI::App& app, std::function<void()>& action, std::vector<s
   command.add_option("--out", arguments->out, "folder to write to, made if it is not there")
       ->required()
       ->type_name("DIR");
-  const auto options = std::make_shared<SettingsOptions>(command);
+  const auto options = std::make_shared<SettingsOptions>(
+      command, AcceptedSettings{{SettingScope::model, SettingScope::attention, SettingScope::frames,
+                                 SettingScope::sensor, SettingScope::output, SettingScope::program}});
   command.callback([arguments, options, &action] {
     action = [arguments, options] {
       const Settings settings = options->resolve();

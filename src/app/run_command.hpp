@@ -6,7 +6,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "core/settings.hpp"
+#include "settings/settings.hpp"
 
 namespace saccade {
 

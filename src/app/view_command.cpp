@@ -131,7 +131,9 @@ void add_view_command(CLI::App& app, std::function<void()>& action) {
   command
       .add_option("--ui-log", a.log, "a line of JSON for each frame of the window: its time, what it shows")
       ->type_name("FILE");
-  const auto options = std::make_shared<SettingsOptions>(command, std::set<std::string_view>{"dump", "json"});
+  const auto options = std::make_shared<SettingsOptions>(
+      command, AcceptedSettings{{SettingScope::model, SettingScope::attention, SettingScope::frames,
+                                 SettingScope::sensor, SettingScope::program}});
   command.callback(
       [arguments, options, &action] { action = [arguments, options] { view(*arguments, *options); }; });
 }

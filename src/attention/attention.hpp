@@ -6,8 +6,8 @@
 
 #include <opencv2/core.hpp>
 
+#include "attention/attention_settings.hpp"
 #include "core/intrinsics.hpp"
-#include "core/settings.hpp"
 #include "core/worker_pool.hpp"
 
 namespace saccade {
@@ -52,6 +52,6 @@ class AttentionSelector {
 /// The selector that `settings` asks for: ProtoSelector (attention/proto.hpp) or WtaSelector
 /// (attention/wta.hpp). Throws std::invalid_argument for a number of fixations or a focus that they cannot
 /// use.
-std::unique_ptr<AttentionSelector> make_selector(const Settings& settings);
+std::unique_ptr<AttentionSelector> make_selector(const AttentionSettings& settings);
 
 }  // namespace saccade

@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/settings.hpp"
+#include "core/sensor_settings.hpp"
 
 namespace saccade {
 

@@ -1,7 +1,6 @@
 #include "eval/plan.hpp"
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 
 #include <fmt/format.h>
@@ -18,30 +17,10 @@ using Json = nlohmann::ordered_json;
 constexpr int kFormat = 2;  // of results.jsonl
 constexpr int kMostShards = 100'000;
 
-// Settings that are fields of the plan, and those that change no result.
-constexpr std::array<std::string_view, 9> kNotInPlan = {"model", "kernel", "selector", "fixations", "workers",
-                                                        "dump",  "json",   "quiet",    "log-level"};
-
-std::vector<std::string> split(const std::string& list) {
-  std::vector<std::string> parts(1);
-  for (const char c : list)
-    if (c == ',')
-      parts.emplace_back();
-    else
-      parts.back() += c;
-  return parts;
-}
-
-std::string setting(const Settings& settings, std::string_view key) {
-  const auto specs = setting_specs();
-  return std::find_if(specs.begin(), specs.end(), [&](const auto& spec) { return spec.key == key; })
-      ->print(settings);
-}
-
 // Reads each word of the list with the setting's own parser; `take` gets the settings that hold it.
 template <typename Take>
 void parse_list(const EvalPlan& plan, const std::string& key, const std::string& list, Take take) {
-  const auto words = split(list.empty() ? setting(plan.settings, key) : list);
+  const auto words = split_list(list.empty() ? setting_spec(key).print(plan.settings) : list);
   for (std::size_t i = 0; i < words.size(); ++i) {
     if (std::find(words.begin(), words.begin() + static_cast<std::ptrdiff_t>(i), words[i]) !=
         words.begin() + static_cast<std::ptrdiff_t>(i))
@@ -58,11 +37,17 @@ void parse_list(const EvalPlan& plan, const std::string& key, const std::string&
 std::string to_string(Selector selector) {
   Settings settings;
   settings.selector = selector;
-  return setting(settings, "selector");
+  return setting_spec("selector").print(settings);
 }
 
 std::string describe(const Condition& condition) {
   return fmt::format("{}, k = {}, {}", condition.model, condition.kernel, to_string(condition.selector));
+}
+
+bool is_kept(const SettingSpec& spec) {
+  const bool changes_results = spec.scope == SettingScope::model || spec.scope == SettingScope::attention ||
+                               spec.scope == SettingScope::frames;
+  return changes_results && std::find(kPlanKeys.begin(), kPlanKeys.end(), spec.key) == kPlanKeys.end();
 }
 
 std::vector<Condition> EvalPlan::conditions() const {
@@ -104,8 +89,7 @@ void parse_shard(EvalPlan& plan, const std::string& text) {
 Json plan_json(const EvalPlan& plan) {
   Json settings = Json::object(), selectors = Json::array();
   for (const SettingSpec& spec : setting_specs())
-    if (std::find(kNotInPlan.begin(), kNotInPlan.end(), spec.key) == kNotInPlan.end())
-      settings[std::string(spec.key)] = spec.print(plan.settings);
+    if (is_kept(spec)) settings[std::string(spec.key)] = spec.print(plan.settings);
   for (const Selector selector : plan.selectors) selectors.push_back(to_string(selector));
   return {{"format", kFormat},        {"version", kVersion},   {"dataset", plan.dataset},
           {"frames", plan.positions}, {"models", plan.models}, {"kernels", plan.kernels},

@@ -1,12 +1,14 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "core/settings.hpp"
+#include "settings/settings.hpp"
 
 namespace saccade {
 
@@ -24,6 +26,12 @@ std::string describe(const Condition& condition);
 std::string to_string(Selector selector);
 
 inline constexpr int kMostPoints = 1000;
+
+/// The settings that a plan replaces by fields of its own: models, kernels, selectors, points.
+inline constexpr std::array<std::string_view, 4> kPlanKeys = {"model", "kernel", "selector", "fixations"};
+
+/// Whether plan_json() keeps this setting: those that change results, apart from kPlanKeys.
+bool is_kept(const SettingSpec& spec);
 
 /// What an evaluation compares, and on which part of a data set.
 struct EvalPlan {

@@ -20,10 +20,10 @@ void divide_by_maximum(cv::Mat1f& map) {
 
 }  // namespace
 
-CombinedModel::CombinedModel(const Settings& settings, WorkerPool& pool)
+CombinedModel::CombinedModel(const ModelSettings& settings, WorkerPool& pool)
     : pool_(pool),
       first_level_(settings.first_level),
-      symmetry3d_(Symmetry3dParams::from(settings), pool, settings.simd),
+      symmetry3d_(settings, pool, settings.simd),
       itti_(std::make_unique<IttiModel>("combined", false, pool)),
       symmetry2d_(make_symmetry2d(pool)) {}
 

@@ -22,7 +22,7 @@ namespace saccade {
 class CombinedModel : public SaliencyModel {
  public:
   /// Throws Error (usage) as Symmetry3d.
-  CombinedModel(const Settings& settings, WorkerPool& pool);
+  CombinedModel(const ModelSettings& settings, WorkerPool& pool);
   void compute(const Frame& frame, RequestedOutputs outputs, SaliencyMaps& maps, StageTimes& times) override;
 
  private:

@@ -1,10 +1,10 @@
 #include "models/model.hpp"
 
+#include <algorithm>
+#include <array>
 #include <stdexcept>
+#include <string>
 
-#include <fmt/format.h>
-
-#include "core/error.hpp"
 #include "models/baselines.hpp"
 #include "models/combined.hpp"
 #include "models/itti.hpp"
@@ -16,8 +16,8 @@ namespace {
 
 class Symmetry3dModel : public SaliencyModel {
  public:
-  Symmetry3dModel(const Settings& settings, WorkerPool& pool)
-      : operator_(Symmetry3dParams::from(settings), pool, settings.simd) {}
+  Symmetry3dModel(const ModelSettings& settings, WorkerPool& pool)
+      : operator_(settings, pool, settings.simd) {}
 
   void compute(const Frame& frame, RequestedOutputs outputs, SaliencyMaps& maps, StageTimes& times) override {
     operator_.compute(frame.depth_mm, frame.intrinsics, outputs, maps, times);
@@ -27,31 +27,63 @@ class Symmetry3dModel : public SaliencyModel {
   Symmetry3d operator_;
 };
 
-}  // namespace
-
-bool needs_depth(std::string_view model) { return model == "symmetry3d" || model == "combined"; }
-
-void check_model(const Settings& settings, cv::Size image) {
-  if (needs_depth(settings.model)) return check_levels(image, Symmetry3dParams::from(settings));
-  for (const char* part : {"levels", "normals"})
-    if (settings.dump.contains(part))
-      throw usage_error(fmt::format("model {} has no {} to dump", settings.model, part),
-                        "--dump " + fmt::format("{}", fmt::join(settings.dump, ",")),
-                        fmt::format("leave {} out, or use --model symmetry3d or combined", part));
+template <typename Model>
+std::unique_ptr<SaliencyModel> make(const ModelSettings& settings, WorkerPool& pool) {
+  return std::make_unique<Model>(settings, pool);
 }
 
-std::unique_ptr<SaliencyModel> make_model(const Settings& settings, WorkerPool& pool) {
-  const std::string& name = settings.model;
-  if (name == "symmetry3d") return std::make_unique<Symmetry3dModel>(settings, pool);
-  if (name == "combined") return std::make_unique<CombinedModel>(settings, pool);
-  if (name == "symmetry2d") return make_symmetry2d(pool);
-  if (name == "colour_symmetry2d") return make_colour_symmetry2d(pool);
-  if (name == "radial2d") return std::make_unique<Radial2dModel>(pool);
-  if (name == "itti") return std::make_unique<IttiModel>("itti", false, pool);
-  if (name == "itti_orientation") return std::make_unique<IttiModel>("itti_orientation", true, pool);
-  if (name == "random") return std::make_unique<RandomModel>(pool);
-  if (name == "centre") return std::make_unique<CentreModel>(pool);
-  throw std::invalid_argument("make_model: unknown model " + name);
+template <typename Model>
+std::unique_ptr<SaliencyModel> make_plain(const ModelSettings&, WorkerPool& pool) {
+  return std::make_unique<Model>(pool);
+}
+
+constexpr std::array<ModelInfo, 9> kModels = {{
+    {"symmetry3d", "3D symmetry of the depth image, the paper's model", true, make<Symmetry3dModel>},
+    {"combined", "3D symmetry together with itti and symmetry2d", true, make<CombinedModel>},
+    {"symmetry2d", "symmetry of the grey image (Reisfeld, Kootstra)", false,
+     [](const ModelSettings&, WorkerPool& pool) { return make_symmetry2d(pool); }},
+    {"colour_symmetry2d", "symmetry of the colour image (Heidemann)", false,
+     [](const ModelSettings&, WorkerPool& pool) { return make_colour_symmetry2d(pool); }},
+    {"radial2d", "fast radial symmetry of the grey image (Loy and Zelinsky)", false,
+     make_plain<Radial2dModel>},
+    {"itti", "intensity, colour and orientation contrast (Itti, Koch and Niebur)", false,
+     [](const ModelSettings&, WorkerPool& pool) -> std::unique_ptr<SaliencyModel> {
+       return std::make_unique<IttiModel>("itti", false, pool);
+     }},
+    {"itti_orientation", "the orientation channel of itti alone", false,
+     [](const ModelSettings&, WorkerPool& pool) -> std::unique_ptr<SaliencyModel> {
+       return std::make_unique<IttiModel>("itti_orientation", true, pool);
+     }},
+    {"random", "baseline: a random value at each pixel", false, make_plain<RandomModel>},
+    {"centre", "baseline: the centre of the image", false, make_plain<CentreModel>},
+}};
+
+const ModelInfo& find_model(std::string_view name) {
+  const auto found = std::find_if(kModels.begin(), kModels.end(),
+                                  [&](const ModelInfo& model) { return model.name == name; });
+  if (found == kModels.end()) throw std::invalid_argument("unknown model " + std::string(name));
+  return *found;
+}
+
+}  // namespace
+
+std::span<const ModelInfo> models() { return kModels; }
+
+std::vector<std::string_view> model_names(bool needs_depth) {
+  std::vector<std::string_view> names;
+  for (const ModelInfo& model : kModels)
+    if (model.needs_depth == needs_depth) names.push_back(model.name);
+  return names;
+}
+
+bool needs_depth(std::string_view model) { return find_model(model).needs_depth; }
+
+void check_model(const ModelSettings& settings, cv::Size image) {
+  if (needs_depth(settings.model)) check_levels(image, settings);
+}
+
+std::unique_ptr<SaliencyModel> make_model(const ModelSettings& settings, WorkerPool& pool) {
+  return find_model(settings.model).make(settings, pool);
 }
 
 }  // namespace saccade

@@ -13,7 +13,7 @@ constexpr std::chrono::milliseconds kReadTimeout{100};
 
 std::vector<std::unique_ptr<Result>> make_slots(const PipelineOptions& options) {
   const int least = options.policy == FramePolicy::newest ? 3 : 2;
-  if (options.slots < least || options.selection.every < 1 || options.selection.start < 0)
+  if (options.slots < least || options.frames.every < 1 || options.frames.start < 0)
     throw std::invalid_argument("Pipeline: slots >= 2 (newest: 3), every >= 1 and start >= 0 expected");
   std::vector<std::unique_ptr<Result>> slots;
   for (int i = 0; i < options.slots; ++i) slots.push_back(std::make_unique<Result>());
@@ -95,9 +95,9 @@ void Pipeline::capture() noexcept {
 }
 
 void Pipeline::capture_frames() {
-  const FrameSelection& selection = options_.selection;
+  const FrameSettings& selection = options_.frames;
   const bool seekable = !source_->info().live;
-  const std::int64_t limit = keeps_newest() ? 0 : selection.limit;
+  const std::int64_t limit = keeps_newest() ? 0 : selection.frames;
   std::int64_t wanted = selection.start, taken = 0;
   bool at_wanted = wanted == 0;
   Result* slot = keeps_newest() ? slots_[1].get() : free_.pop();
@@ -127,7 +127,7 @@ ReadResult Pipeline::read_into(Result& slot) {
   const StageTimer timer(slot.times, Stage::capture);
   ReadResult read = source_->read(slot.frame, kReadTimeout);
   slot.captured_at = Clock::now();
-  if (options_.intrinsics) slot.frame.intrinsics = *options_.intrinsics;
+  if (options_.frames.intrinsics) slot.frame.intrinsics = *options_.frames.intrinsics;
   return read;
 }
 
@@ -153,7 +153,7 @@ void Pipeline::compute() noexcept {
     counters_.count(LedgerCounters::processed);
     computed_.push(slot);
     if (!keeps_newest()) continue;
-    if (++results_ == options_.selection.limit) stop();
+    if (++results_ == options_.frames.frames) stop();
     spare = free_.pop();  // null only when stopped: capture then ends, whatever it gets for it
   }
   computed_.push(nullptr);

@@ -6,12 +6,12 @@
 #include <functional>
 #include <memory>
 #include <mutex>
-#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
 
 #include "core/frame_source.hpp"
+#include "pipeline/frame_settings.hpp"
 #include "pipeline/ledger.hpp"
 #include "pipeline/mailbox.hpp"
 #include "pipeline/processor.hpp"
@@ -22,21 +22,13 @@
 
 namespace saccade {
 
-/// Which frames of a source are taken.
-struct FrameSelection {
-  std::int64_t start = 0;  ///< index of the first
-  std::int64_t every = 1;  ///< each n-th from there, >= 1
-  std::int64_t limit = 0;  ///< at most so many, 0 = all: captured ones (every_frame) or results (newest)
-};
-
 enum class FramePolicy {
   every_frame,  ///< all frames, in order; capture waits while no slot is free
   newest,       ///< capture never waits; a frame that a newer one overtakes before its turn is dropped
 };
 
 struct PipelineOptions {
-  FrameSelection selection;
-  std::optional<Intrinsics> intrinsics;  ///< instead of what the source says
+  FrameSettings frames;  ///< its limit counts captured frames (every_frame) or results (newest)
   FramePolicy policy = FramePolicy::every_frame;
   /// Frames in memory at once: >= 2, and >= 3 for `newest`, of which the consumer may hold all but two.
   int slots = 4;

@@ -1,17 +1,17 @@
 #include "pipeline/processor.hpp"
 
-#include "models/model.hpp"
+#include "core/worker_pool.hpp"
 
 namespace saccade {
 namespace {
 
 class ModelProcessor : public FrameProcessor {
  public:
-  explicit ModelProcessor(const Settings& settings)
-      : pool_(worker_count(settings)),
-        model_(make_model(settings, pool_)),
-        selector_(make_selector(settings)),
-        outputs_{settings.dump.contains("levels"), settings.dump.contains("normals")} {}
+  explicit ModelProcessor(const ProcessorOptions& options)
+      : pool_(options.workers),
+        model_(make_model(options.model, pool_)),
+        selector_(make_selector(options.attention)),
+        outputs_(options.outputs) {}
 
   void process(Result& result) override {
     const Frame& frame = result.frame;
@@ -29,12 +29,8 @@ class ModelProcessor : public FrameProcessor {
 
 }  // namespace
 
-std::unique_ptr<FrameProcessor> make_processor(const Settings& settings) {
-  return std::make_unique<ModelProcessor>(settings);
-}
-
-int worker_count(const Settings& settings) {
-  return settings.workers > 0 ? settings.workers : processor_count();
+std::unique_ptr<FrameProcessor> make_processor(const ProcessorOptions& options) {
+  return std::make_unique<ModelProcessor>(options);
 }
 
 }  // namespace saccade

@@ -2,8 +2,8 @@
 
 #include <memory>
 
-#include "core/settings.hpp"
-#include "core/worker_pool.hpp"
+#include "attention/attention.hpp"
+#include "models/model.hpp"
 #include "pipeline/result.hpp"
 
 namespace saccade {
@@ -17,11 +17,14 @@ class FrameProcessor {
   virtual void process(Result& result) = 0;
 };
 
-/// The model and the selector that `settings` asks for, on settings.workers threads (the calling one among
-/// them). Throws Error (usage) if this machine cannot run what is asked.
-std::unique_ptr<FrameProcessor> make_processor(const Settings& settings);
+struct ProcessorOptions {
+  ModelSettings model;
+  AttentionSettings attention;
+  RequestedOutputs outputs{};
+  int workers = 1;  ///< threads, the calling one among them; >= 1
+};
 
-/// settings.workers, with 0 resolved to the number of processors.
-int worker_count(const Settings& settings);
+/// A model followed by a selector. Throws Error (usage) if this machine cannot run the model.
+[[nodiscard]] std::unique_ptr<FrameProcessor> make_processor(const ProcessorOptions& options);
 
 }  // namespace saccade

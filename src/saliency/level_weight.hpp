@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/settings.hpp"
+#include "saliency/params.hpp"
 #include "saliency/simd/level_planes.hpp"
 
 namespace saccade {

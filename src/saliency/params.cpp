@@ -11,10 +11,6 @@ namespace {
 constexpr int kSmallestSide = 8;
 }
 
-Symmetry3dParams Symmetry3dParams::from(const Settings& s) {
-  return {s.kernel, s.first_level, s.last_level, s.length_scale, s.normalisation};
-}
-
 std::optional<double> Symmetry3dParams::lambda_px() const {
   if (length_scale == LengthScale::millimetre) return std::nullopt;
   return 0.05 * kernel;
@@ -32,12 +28,6 @@ int deepest_level(cv::Size image) {
     ++level;
   }
   return level;
-}
-
-int last_level_for(const Settings& settings, cv::Size image) {
-  const int deepest = deepest_level(image);
-  if (settings.levels_chosen || deepest < 0) return settings.last_level;
-  return std::min(settings.last_level, deepest);
 }
 
 void check_levels(cv::Size image, const Symmetry3dParams& params) {

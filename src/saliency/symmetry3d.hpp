@@ -32,7 +32,7 @@ struct SaliencyMaps {
 /// one compute() at a time per object.
 class Symmetry3d {
  public:
-  /// `simd` as in Settings::simd; throws Error (usage) if this machine cannot run it. `pool` must outlive
+  /// `simd` as in ModelSettings::simd; throws Error (usage) if this machine cannot run it. `pool` must outlive
   /// this.
   Symmetry3d(const Symmetry3dParams& params, WorkerPool& pool, const std::string& simd = "auto");
   ~Symmetry3d();

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "core/frame_source.hpp"
-#include "core/settings.hpp"
+#include "core/sensor_settings.hpp"
 
 namespace saccade {
 

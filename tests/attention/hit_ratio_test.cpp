@@ -37,7 +37,7 @@ void add_image(HitRatio& ratio, const cv::Mat& labels, const std::vector<Fixatio
 
 // Every third of the real table scenes, k = 15, levels 0..4.
 HitRatio measure(Selector selector, int& images) {
-  Settings settings;
+  AttentionSettings settings;
   settings.selector = selector;
   settings.fixations = kMost;
   WorkerPool pool(2);

@@ -213,7 +213,7 @@ TEST(SmoothCells, IsTheMeanThenTheBinomialBothWays) {
 TEST(MakeSelector, GivesTheOneAskedFor) {
   const TableScene scene = look_at_table({box(0, 0, 120, 100, 120)}, {160, 120});
   const cv::Mat1f map = hills(scene.labels.size(), {{middle_of(scene.labels, 1), 1}});
-  Settings settings;
+  AttentionSettings settings;
   settings.fixations = 1;
   Attention attention;
   make_selector(settings)->select(map, scene.depth_mm, scene.camera, attention);

@@ -39,7 +39,7 @@ TEST(Evaluator, PointsAreThoseOfModelAndSelector) {
   for (std::size_t i = 0; i < conditions.size(); ++i) {
     SCOPED_TRACE(describe(conditions[i]));
     const Settings settings = plan.settings_of(conditions[i]);
-    Symmetry3d model(Symmetry3dParams::from(settings), pool);
+    Symmetry3d model(settings, pool);
     SaliencyMaps maps;
     StageTimes times;
     Attention attention;

@@ -1,11 +1,14 @@
 #include "eval/plan.hpp"
 
+#include <algorithm>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
 #include "samples.hpp"
+#include "tests/support/other_value.hpp"
 
 namespace saccade {
 namespace {
@@ -104,15 +107,15 @@ TEST(EvalPlan, JsonOfNoPlan) {
   }
 }
 
-TEST(EvalPlan, JsonLeavesOutWhatChangesNoResult) {
+TEST(EvalPlan, JsonKeepsTheSettingsThatChangeResults) {
   EvalPlan plan = sample_plan();
   const auto before = plan_json(plan);
-  plan.settings.workers = 7;
-  plan.settings.quiet = true;
-  plan.settings.json = true;
-  EXPECT_EQ(plan_json(plan), before);
-  plan.settings.last_level = 2;
-  EXPECT_NE(plan_json(plan), before);
+  for (const SettingSpec& spec : setting_specs()) {
+    plan.settings = changed(spec);
+    const bool listed = std::find(kPlanKeys.begin(), kPlanKeys.end(), spec.key) != kPlanKeys.end();
+    const bool kept = spec.scope <= SettingScope::frames && !listed;
+    EXPECT_EQ(plan_json(plan) != before, kept) << spec.key;
+  }
 }
 
 }  // namespace

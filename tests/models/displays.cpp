@@ -7,8 +7,8 @@
 
 namespace saccade {
 
-Settings settings_for(const std::string& model, int last_level) {
-  Settings settings;
+ModelSettings settings_for(const std::string& model, int last_level) {
+  ModelSettings settings;
   settings.model = model;
   settings.last_level = last_level;
   return settings;

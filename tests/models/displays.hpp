@@ -9,7 +9,7 @@
 namespace saccade {
 
 /// The settings of `model`, and levels 0..`last_level` of the 3D operator.
-Settings settings_for(const std::string& model, int last_level = 4);
+ModelSettings settings_for(const std::string& model, int last_level = 4);
 
 /// A frame of this colour image with no depth at all.
 Frame frame_of(const cv::Mat3b& colour);

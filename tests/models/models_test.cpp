@@ -12,9 +12,13 @@ using ::testing::HasSubstr;
 
 const std::vector<std::string> kNeedColour = {"symmetry2d", "colour_symmetry2d", "radial2d",
                                               "itti",       "itti_orientation",  "combined"};
-const std::vector<std::string> kAll = {"symmetry3d",       "symmetry2d", "colour_symmetry2d",
-                                       "radial2d",         "itti",       "combined",
-                                       "itti_orientation", "random",     "centre"};
+std::vector<std::string> all_models() {
+  std::vector<std::string> names;
+  for (const ModelInfo& model : models()) names.emplace_back(model.name);
+  return names;
+}
+
+const std::vector<std::string> kAll = all_models();
 
 Frame frame_with_depth(cv::Size size) {
   Frame frame = frame_of(noise_image(size));
@@ -32,20 +36,26 @@ void expect_usable(const cv::Mat1f& map, cv::Size size, const std::string& model
   EXPECT_GE(*std::min_element(map.begin(), map.end()), 0) << model << size;
 }
 
-TEST(Models, SettingsKnowThemAll) {
-  for (const std::string& name : kAll) {
-    Settings settings;
-    EXPECT_NO_THROW(apply_setting(settings, "model", name));
+TEST(Models, TheSettingKnowsThemAll) {
+  const SettingOf<ModelSettings> setting = model_setting_specs().front();
+  ASSERT_EQ(setting.key, "model");
+  EXPECT_EQ(setting.words, kAll);
+  for (const ModelInfo& model : models()) {
+    ModelSettings settings;
+    EXPECT_NO_THROW(setting.parse(settings, std::string(model.name)));
     WorkerPool pool(1);
     EXPECT_NE(make_model(settings, pool), nullptr);
+    EXPECT_NE(model.help, "");
+    EXPECT_THAT(setting.help, HasSubstr(std::string(model.help)));
   }
+  EXPECT_THROW(needs_depth("nonsense"), std::invalid_argument);
 }
 
 TEST(Models, GiveFiniteMapsOfAnySizeOnColourOnly) {
   for (const std::string& model : kAll)
     for (const cv::Size size : {cv::Size(1, 1), cv::Size(2, 9), cv::Size(5, 3), cv::Size(17, 33),
                                 cv::Size(64, 40), cv::Size(161, 121)}) {
-      if ((model == "symmetry3d" || model == "combined") && std::min(size.width, size.height) < 8) continue;
+      if (needs_depth(model) && std::min(size.width, size.height) < 8) continue;
       expect_usable(map_of(model, frame_of(noise_image(size)), 1, 0), size, model);
     }
 }
@@ -103,7 +113,7 @@ TEST(Models, GiveByProductsOnlyIfTheyHaveThem) {
     StageTimes times;
     maps.levels.resize(3);
     maps.normals.create(4, 4);
-    const bool has = model == "symmetry3d" || model == "combined";
+    const bool has = needs_depth(model);
     make_model(settings_for(model), pool)->compute(frame, {.levels = true, .normals = true}, maps, times);
     EXPECT_EQ(maps.levels.size(), has ? 5U : 0U) << model;
     EXPECT_EQ(maps.normals.empty(), !has) << model;
@@ -115,10 +125,16 @@ TEST(Models, SettingsAreCheckedByModel) {
   const cv::Size small(64, 48);
   EXPECT_THROW(check_model(settings_for("symmetry3d"), small), Error);
   EXPECT_THROW(check_model(settings_for("combined"), small), Error);
-  Settings itti = settings_for("itti");
-  EXPECT_NO_THROW(check_model(itti, small));
-  itti.dump = {"maps", "normals"};
-  EXPECT_THROW(check_model(itti, small), Error);
+  EXPECT_NO_THROW(check_model(settings_for("itti"), small));
+}
+
+TEST(Levels, OnlyTheDefaultOnesAreCutToTheImage) {
+  ModelSettings settings;
+  EXPECT_EQ(last_level_for(settings, {640, 480}), settings.last_level);
+  EXPECT_EQ(last_level_for(settings, {64, 48}), 2);
+  EXPECT_EQ(last_level_for(settings, {4, 4}), settings.last_level) << "there is nothing to cut them to";
+  settings.levels_chosen = true;
+  EXPECT_EQ(last_level_for(settings, {64, 48}), settings.last_level);
 }
 
 TEST(Random, DependsOnTheFrameAloneAndIsUniform) {

@@ -69,13 +69,13 @@ TEST_F(PipelineMemory, NothingIsAllocatedPerFrame) {
 }
 
 TEST_F(PipelineMemory, NorByTheOperatorAndTheChoiceOfPoints) {
-  Settings settings;
-  settings.kernel = 5;
-  settings.last_level = 1;
-  settings.workers = 2;
+  ProcessorOptions processor;
+  processor.model.kernel = 5;
+  processor.model.last_level = 1;
+  processor.workers = 2;
   for (const Selector selector : {Selector::wta, Selector::proto}) {
-    settings.selector = selector;
-    Pipeline pipeline(std::make_unique<BoxesSource>(), make_processor(settings),
+    processor.attention.selector = selector;
+    Pipeline pipeline(std::make_unique<BoxesSource>(), make_processor(processor),
                       options(FramePolicy::every_frame));
     EXPECT_EQ(cost(pipeline, 100), 0) << static_cast<int>(selector);
   }

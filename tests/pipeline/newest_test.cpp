@@ -130,7 +130,7 @@ TEST(PipelineNewest, TheLastFrameOfASourceThatEndsIsComputed) {
 
 TEST(PipelineNewest, TheLimitCountsResults) {
   PipelineOptions options = newest();
-  options.selection.limit = 7;
+  options.frames.frames = 7;
   Pipeline pipeline(std::make_unique<CountingSource>(100'000'000),
                     std::make_unique<CopyProcessor>(microseconds(500)), options);
   int seen = 0;
@@ -143,7 +143,7 @@ TEST(PipelineNewest, TheLimitCountsResults) {
 TEST(PipelineNewest, EveryNthCountsFromTheFrameThatWasTaken) {
   Steps steps;
   PipelineOptions options = newest();
-  options.selection = {2, 3, 0};
+  options.frames = {2, 3, 0};
   Pipeline pipeline(std::make_unique<SteppedSource>(steps), std::make_unique<CopyProcessor>(), options);
   for (const std::int64_t expected : {2, 5, 8}) {
     steps.give(3);
@@ -185,7 +185,7 @@ void run_moody(FramePolicy policy, unsigned seed) {
   PipelineOptions options;
   options.policy = policy;
   options.slots = static_cast<int>(3 + dice() % 4);
-  options.selection.limit = chance(4) ? 1 + dice() % 40 : 0;
+  options.frames.frames = chance(4) ? 1 + dice() % 40 : 0;
   std::atomic<std::int64_t> rejected = 0;
   options.on_rejected = [&](std::int64_t, const std::string&) { ++rejected; };
   const std::int64_t source_fails = chance(4) ? dice() % 100 : -1,

@@ -45,7 +45,7 @@ TEST(Pipeline, GivesEveryFrameInOrder) {
 
 TEST(Pipeline, TakesStartEveryAndLimit) {
   PipelineOptions options;
-  options.selection = {5, 10, 4};
+  options.frames = {5, 10, 4};
   Pipeline pipeline(std::make_unique<CountingSource>(100), std::make_unique<CopyProcessor>(), options);
   EXPECT_EQ(indices(pipeline), (std::vector<std::int64_t>{5, 15, 25, 35}));
 }
@@ -140,7 +140,7 @@ TEST(Pipeline, StopsWhileALiveSourceIsSilent) {
 
 TEST(Pipeline, OverridesIntrinsics) {
   PipelineOptions options;
-  options.intrinsics = Intrinsics{1, 2, 3, 4, IntrinsicsOrigin::option};
+  options.frames.intrinsics = Intrinsics{1, 2, 3, 4, IntrinsicsOrigin::option};
   Pipeline pipeline(std::make_unique<CountingSource>(1), std::make_unique<CopyProcessor>(), options);
   const ResultHandle result = pipeline.next();
   ASSERT_TRUE(result);

@@ -16,15 +16,6 @@ TEST(Levels, EachIsHalfOfTheOneBeforeAndTheDeepestHasEightPixels) {
   EXPECT_EQ(deepest_level({640, 7}), -1);
 }
 
-TEST(Levels, OnlyTheDefaultOnesAreCutToTheImage) {
-  Settings settings;
-  EXPECT_EQ(last_level_for(settings, {640, 480}), settings.last_level);
-  EXPECT_EQ(last_level_for(settings, {64, 48}), 2);
-  EXPECT_EQ(last_level_for(settings, {4, 4}), settings.last_level) << "there is nothing to cut them to";
-  settings.levels_chosen = true;
-  EXPECT_EQ(last_level_for(settings, {64, 48}), settings.last_level);
-}
-
 TEST(Levels, ChosenOnesThatDoNotFitAreRefused) {
   EXPECT_NO_THROW(check_levels({64, 48}, {.last_level = 2}));
   EXPECT_THROW(check_levels({64, 48}, {.last_level = 3}), Error);

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/other_value.hpp"
 #include "ui/tunable_processor.hpp"
 
 namespace saccade {
@@ -74,6 +75,28 @@ TEST(Engine, WhatIsKeptEqualsWhatIsComputed) {
     EXPECT_EQ(kept.result.times[Stage::symmetry] > 0, settings.kernel != 9) << "computed only if it must be";
   }
   EXPECT_FALSE(has_maps(last, with_kernel(9), {})) << "with other by-products";
+}
+
+TEST(Engine, EverySettingOfTheModelMakesAMapStaleAndNoOther) {
+  Computed of;
+  of.result.frame = ball_frame({256, 256});
+  for (const SettingSpec& spec : setting_specs())
+    EXPECT_EQ(has_maps(of, changed(spec), {}), spec.scope != SettingScope::model) << spec.key;
+}
+
+TEST(Engine, EverySettingOfAttentionMakesThePointsStaleAndNoOther) {
+  WorkerPool pool(1);
+  Computed last;
+  last.result.frame = ball_frame({128, 128});
+  Engine(pool).compute(Settings{}, {}, nullptr, last);
+  for (const SettingSpec& spec : setting_specs()) {
+    if (spec.scope == SettingScope::model) continue;
+    Computed next;
+    next.result.frame = last.result.frame;
+    Engine(pool).compute(changed(spec), {}, &last, next);
+    EXPECT_EQ(next.result.times[Stage::symmetry], 0) << spec.key;
+    EXPECT_EQ(next.result.times[Stage::attention] > 0, spec.scope == SettingScope::attention) << spec.key;
+  }
 }
 
 TEST(Engine, ComputesTheSameAfterAnInterruption) {

@@ -40,17 +40,12 @@ Settings all_changed() {
   return s;
 }
 
-bool is_tuned(std::string_view key) {
-  const auto keys = tuned_keys();
-  return std::find(keys.begin(), keys.end(), key) != keys.end();
-}
-
 TEST(Tuning, TheTunedSettingsAreCopiedAndNoOthers) {
   const Settings from = all_changed(), defaults;
   Settings to;
   copy_tuned(from, to);
   for (const SettingSpec& spec : setting_specs())
-    EXPECT_EQ(spec.print(to), spec.print(is_tuned(spec.key) ? from : defaults)) << spec.key;
+    EXPECT_EQ(spec.print(to), spec.print(is_tuned(spec) ? from : defaults)) << spec.key;
   EXPECT_TRUE(to.levels_chosen);
 }
 

@@ -9,7 +9,7 @@ namespace {
 
 // The settings' parameters, with as many levels as the frame has room for.
 std::optional<Symmetry3dParams> params_for(const Settings& settings, cv::Size size) {
-  Symmetry3dParams params = Symmetry3dParams::from(settings);
+  Symmetry3dParams params = settings;
   params.last_level = std::min(params.last_level, deepest_level(size));
   params.first_level = std::min(params.first_level, params.last_level);
   if (params.last_level < 0) return std::nullopt;

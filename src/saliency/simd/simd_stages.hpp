@@ -27,7 +27,7 @@ struct WindowParams {
 /// these rows and the scratch memory and nothing else, and a row's bits do not depend on how the rows are
 /// divided among calls. src/saliency/README.md has what they compute.
 struct SimdStages {
-  std::string_view name;  ///< as in Settings::simd: "avx512", ...
+  std::string_view name;  ///< as in ModelSettings::simd: "avx512", ...
   int lanes;              ///< floats in a vector
   int runs_from_reach;    ///< windows of at least this reach need RowScratch::row_sums
 
@@ -51,7 +51,7 @@ struct SimdStages {
                              RowScratch& scratch);
 };
 
-/// The stages for the highest instruction set that `simd` (Settings::simd), the environment variable
+/// The stages for the highest instruction set that `simd` (ModelSettings::simd), the environment variable
 /// SACCADE_SIMD, this build and this machine allow. Throws Error (usage) if one of the two names a set that
 /// cannot run here.
 const SimdStages& choose_simd_stages(const std::string& simd);

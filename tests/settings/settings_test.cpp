@@ -1,12 +1,14 @@
-#include "core/settings.hpp"
+#include "settings/settings.hpp"
 
 #include <filesystem>
+#include <set>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
 #include "core/file.hpp"
+#include "tests/support/other_value.hpp"
 
 namespace saccade {
 namespace {
@@ -44,6 +46,39 @@ TEST(Settings, PrintAndParseAreInverse) {
     for (const SettingSpec& spec : setting_specs())
       EXPECT_EQ(spec.print(copy), spec.print(settings)) << spec.key;
   }
+}
+
+TEST(Settings, StandScopeByScopeWithTheirNames) {
+  SettingScope last = SettingScope::model;
+  std::set<std::string_view> keys;
+  for (const SettingSpec& spec : setting_specs()) {
+    EXPECT_GE(spec.scope, last) << spec.key;
+    EXPECT_NE(title(spec.scope), "");
+    EXPECT_NE(spec.help, "") << spec.key;
+    EXPECT_TRUE(keys.insert(spec.key).second) << spec.key << " is there twice";
+    last = spec.scope;
+  }
+  EXPECT_EQ(last, SettingScope::program);
+}
+
+TEST(Settings, ValuesAreComparedWithinTheirScope) {
+  for (const SettingSpec& spec : setting_specs()) {
+    const Settings other = changed(spec);
+    EXPECT_FALSE(is_default(spec, other)) << spec.key;
+    for (int i = 0; i <= static_cast<int>(SettingScope::program); ++i) {
+      const auto scope = static_cast<SettingScope>(i);
+      EXPECT_EQ(same_values(scope, Settings{}, other), scope != spec.scope) << spec.key;
+    }
+  }
+}
+
+TEST(Settings, ChosenLevelsAreNotTheDefaultOnes) {
+  Settings s;
+  EXPECT_TRUE(is_default(setting_spec("levels"), s));
+  apply_setting(s, "levels", "0..4");
+  EXPECT_FALSE(is_default(setting_spec("levels"), s));
+  EXPECT_TRUE(same_values(SettingScope::model, Settings{}, s));
+  EXPECT_THAT(settings_toml(s), HasSubstr("levels = \"0..4\""));
 }
 
 TEST(Settings, KernelIsChecked) {

@@ -6,7 +6,7 @@
 
 #include "core/error.hpp"
 #include "core/file.hpp"
-#include "core/settings.hpp"
+#include "settings/settings.hpp"
 
 namespace saccade {
 namespace {
@@ -39,7 +39,7 @@ void load_settings(Settings& settings, const std::string& path) {
   }
   for (const auto& [key, node] : table) {
     try {
-      apply_setting(settings, std::string(key.str()), as_text(node));
+      apply_setting(settings, key.str(), as_text(node));
     } catch (const Error& error) {
       throw usage_error(error.what(), fmt::format("{}:{}", path, node.source().begin.line), hint);
     }
@@ -47,11 +47,10 @@ void load_settings(Settings& settings, const std::string& path) {
 }
 
 std::string settings_toml(const Settings& settings) {
-  const Settings defaults;
-  std::string text = "# Settings of Saccade that are not the default. Use them with --config FILE.\n";
+  std::string text = "# Settings of Saccade that differ from the default. Use them with --config FILE.\n";
   for (const SettingSpec& spec : setting_specs()) {
+    if (is_default(spec, settings)) continue;
     const std::string value = spec.print(settings);
-    if (value == spec.print(defaults) && !(spec.key == "levels" && settings.levels_chosen)) continue;
     double number = 0;
     const auto [end, code] = std::from_chars(value.data(), value.data() + value.size(), number);
     const bool bare = spec.is_switch() || (code == std::errc{} && end == value.data() + value.size());

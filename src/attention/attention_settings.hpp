@@ -1,0 +1,23 @@
+#pragma once
+
+#include <vector>
+
+#include "core/setting.hpp"
+
+namespace saccade {
+
+enum class Selector {
+  proto,  ///< one point per proto-object (attention/proto.hpp)
+  wta,    ///< the paper's winner-take-all network (attention/wta.hpp)
+};
+
+/// How attention points are chosen.
+struct AttentionSettings {
+  Selector selector = Selector::proto;
+  int fixations = 10;  ///< greatest number of points per frame, 1..1000
+  double foa = 64;     ///< diameter of the focus of attention of `wta`, px of the image, 1..1000
+};
+
+std::vector<SettingOf<AttentionSettings>> attention_setting_specs();
+
+}  // namespace saccade
