@@ -7,7 +7,7 @@
 namespace saccade {
 namespace {
 
-// Longer than a program takes over being told of a device.
+// Longer than a program takes to handle the report of a device.
 constexpr std::chrono::milliseconds kStuck{500};
 
 }  // namespace
@@ -50,8 +50,8 @@ void Announcer::call(const std::function<void()>& action) {
   ::pthread_setcancelstate(PTHREAD_CANCEL_DISABLE, &before);
 }
 
-// A thread that is cancelled leaves the frames below without their end, and AddressSanitizer finds their
-// guards when it works for this function, which is left by the same unwinding.
+// A cancelled thread leaves the stack frames below without running their ends, and AddressSanitizer finds
+// their guards when it works for this function, which the same unwinding leaves.
 [[gnu::no_sanitize_address]] void Announcer::take_actions(const std::stop_token& stop) {
   std::unique_lock lock(mutex_);
   while (changed_.wait(lock, stop, [this] { return !actions_.empty(); })) {

@@ -10,8 +10,8 @@
 
 namespace saccade {
 
-/// Runs actions on a thread of its own, each at its time. A driver module tells OpenNI2 of devices that come
-/// and go from here, because a program may stop and close the device from inside the call.
+/// Runs actions on a thread of its own, each at its time. From here a driver module reports to OpenNI2 that
+/// devices come and go, because a program may stop and close the device from inside the call.
 class Announcer {
  public:
   using Clock = std::chrono::steady_clock;
@@ -21,10 +21,10 @@ class Announcer {
   Announcer(const Announcer&) = delete;
   Announcer& operator=(const Announcer&) = delete;
 
-  /// Waits for the action that runs; those that wait for their time, and those that come later, are dropped.
-  /// OpenNI2 holds its lock while it shuts its drivers down, and takes the same lock when it is told of a
-  /// device: an action that stands there would never end, so after a while it is cancelled where it waits.
-  /// Not from inside an action.
+  /// Waits for the action that runs; drops those that wait for their time and those that come later. OpenNI2
+  /// holds its lock while it shuts its drivers down, and takes the same lock when a device is reported: an
+  /// action that waits for that lock would never end, so after a while it is cancelled where it waits. Not
+  /// from inside an action.
   void stop();
 
   /// Any thread, actions too.

@@ -9,8 +9,7 @@
 
 #include "core/error.hpp"
 
-// Not in every library that stands in for libfreenect; without these lines OpenNI2 would not load the module
-// there.
+// A library in place of libfreenect may lack these; the pragmas let OpenNI2 load the module there too.
 #pragma weak freenect_set_flag
 #pragma weak freenect_copy_registration
 #pragma weak freenect_destroy_registration

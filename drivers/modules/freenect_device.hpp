@@ -11,7 +11,7 @@
 
 namespace saccade {
 
-/// A Kinect v1 as an OpenNI2 device: depth in mm, colour as RGB, infrared as 16-bit gray (640 x 488, as the
+/// A Kinect v1 as an OpenNI2 device: depth in mm, colour as RGB, infrared as 16-bit grey (640 x 488, as the
 /// camera gives it). Colour and infrared share a camera channel: one of them at a time.
 ///
 /// Depth comes from libfreenect in mm, on the colour image where that is asked for (image registration); a

@@ -10,7 +10,7 @@
 #include "drivers/modules/announcer.hpp"
 #include "drivers/modules/freenect_device.hpp"
 
-// What OpenNI2's macro below makes and deletes the driver with.
+// OpenNI2's macro below makes and deletes the driver with these.
 #define XN_NEW(type, ...) new type(__VA_ARGS__)
 #define XN_DELETE(pointer) delete (pointer)
 
@@ -20,9 +20,9 @@ namespace {
 constexpr int kMicrosoft = 0x045e, kKinectCamera = 0x02ae;
 
 // The Kinects are counted once a second; they are known by their place in that count, because asking for
-// their serial numbers would open them. One that is pulled out while it streams is noticed at once;
-// libfreenect does not say which it was, so all that stream are told lost, and the next count brings back
-// those that are there.
+// their serial numbers would open them. One that is unplugged while it streams is noticed at once;
+// libfreenect does not say which it was, so all that stream are reported as lost, and the next count brings
+// back those that are there.
 class FreenectDriver final : public oni::driver::DriverBase {
  public:
   explicit FreenectDriver(OniDriverServices* services) : DriverBase(services) {}
@@ -35,15 +35,15 @@ class FreenectDriver final : public oni::driver::DriverBase {
       announcer_.emplace();
       loop_.emplace([this](int count) { announcer_->now([this, count] { counted(count); }); },
                     [this] { announcer_->now([this] { lost_while_streaming(); }); });
-      // A program is to find the devices when this returns. All counts are taken on the announcer's thread.
+      // A program must find the devices when this returns. All counts are handled on the announcer's thread.
       int count = 0;
       loop_->run([&](freenect_context* context) { count = freenect_num_devices(context); });
-      std::promise<void> told;
+      std::promise<void> counted_once;
       announcer_->now([&] {
         counted(count);
-        told.set_value();
+        counted_once.set_value();
       });
-      told.get_future().wait();
+      counted_once.get_future().wait();
       return ONI_STATUS_OK;
     } catch (const std::exception& error) {
       getServices().errorLoggerAppend("%s", error.what());

@@ -14,12 +14,12 @@
 
 namespace saccade {
 
-/// libfreenect, and the one thread that calls it: what others want of it they send here. Frames are handed
-/// on, and devices are counted, on this thread.
+/// libfreenect, and the one thread that calls it: others send their calls here. This thread also hands frames
+/// on and counts devices.
 class FreenectLoop {
  public:
-  /// Starts. `on_count` is told every second how many Kinects are there; `on_failure` that the streams ended:
-  /// one was pulled out. Throws Error (failed) without USB.
+  /// Starts. `on_count` receives the number of Kinects every second; `on_failure` is called when the streams
+  /// end because one was unplugged. Throws Error (failed) without USB.
   FreenectLoop(std::function<void(int)> on_count, std::function<void()> on_failure);
   ~FreenectLoop();
   FreenectLoop(const FreenectLoop&) = delete;
@@ -31,7 +31,7 @@ class FreenectLoop {
   /// Whether `device` has streams to serve; only inside run().
   void set_streaming(const void* device, bool streaming);
 
-  /// What libfreenect last complained of, and forgets it; may be empty.
+  /// The last message of libfreenect, which is then forgotten; may be empty.
   static std::string take_complaint();
 
  private:

@@ -5,8 +5,8 @@
 
 namespace saccade {
 
-/// What a Kinect v1 knows of itself from the factory; the defaults are typical ones, for when it cannot be
-/// asked.
+/// The factory calibration that a Kinect v1 stores; the defaults are typical values, for a library that
+/// cannot read it.
 struct KinectGeometry {
   double baseline_cm = 7.5;            ///< between projector and infrared camera
   double reference_distance_cm = 120;  ///< of the plane on which the stored dot pattern was taken
@@ -31,7 +31,7 @@ std::array<std::uint16_t, 2048> kinect_depth_table(const KinectGeometry& geometr
 /// Focal length of the infrared camera, and so of depth that is not registered, in pixels at a width of 640.
 double kinect_focal_px(const KinectGeometry& geometry);
 
-/// The Kinect's clock, which counts 60 MHz in 32 bits and starts anew every 71.6 s, as microseconds that do
+/// The Kinect's clock, which counts 60 MHz in 32 bits and starts again every 71.6 s, as microseconds that do
 /// not. Depth and video share it, and their frames may come in either order, by less than half a minute.
 class KinectClock {
  public:

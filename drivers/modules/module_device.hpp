@@ -12,8 +12,8 @@
 
 namespace saccade {
 
-/// What the driver modules' devices have in common: the list of their sensors and the properties that OpenNI2
-/// and its programs ask for. A module derives from it and makes the streams.
+/// The common part of the driver modules' devices: the list of their sensors and the properties that OpenNI2
+/// and its programs read. A module derives from it and makes the streams.
 /// Thread safety: OpenNI2 calls from any thread.
 class ModuleDevice : public WithProperties<oni::driver::DeviceBase> {
  public:
@@ -31,7 +31,7 @@ class ModuleDevice : public WithProperties<oni::driver::DeviceBase> {
   const StreamKind* kind_of(OniSensorType sensor) const;
 
   OniImageRegistrationMode registration() const;
-  /// Refuses by any status but OK; what is accepted is kept and read back.
+  /// Any status but OK refuses; an accepted mode is kept and read back.
   virtual OniStatus change_registration(OniImageRegistrationMode mode) = 0;
 
  private:

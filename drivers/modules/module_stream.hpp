@@ -12,7 +12,7 @@
 
 namespace saccade {
 
-/// What a stream of a driver module is like, apart from its pixels.
+/// The kind of a driver module's stream.
 struct StreamKind {
   OniSensorType sensor = ONI_SENSOR_DEPTH;
   std::vector<OniVideoMode> modes;  ///< the first is the one a new stream has
@@ -24,22 +24,21 @@ struct FieldOfView {
   double horizontal_rad = 0, vertical_rad = 0;
 };
 
-/// How a client wants its pictures, at one moment.
+/// The settings of a client for its images, at one moment.
 struct StreamSettings {
   OniVideoMode mode{};
   OniCropping cropping{};
   bool mirrored = false;
 };
 
-/// What the driver modules' streams have in common: the properties that OpenNI2 and its programs ask for, and
-/// handing on an image mirrored and cropped as the client wants it. Whoever owns the images derives from it,
-/// or gives it functions to start and stop.
-/// Thread safety: OpenNI2 calls from any thread; deliver() runs on the thread that makes the images, and
-/// stop() returns only when no deliver() is under way.
+/// The common part of the driver modules' streams: the properties that OpenNI2 and its programs read, and
+/// handing on an image mirrored and cropped as the client set it. The owner of the images derives from it, or
+/// gives it functions to start and stop. Thread safety: OpenNI2 calls from any thread; deliver() runs on the
+/// thread that makes the images, and stop() returns only when no deliver() is under way.
 class ModuleStream : public WithProperties<oni::driver::StreamBase> {
  public:
-  /// `running(true)` is called when a client starts the stream; false refuses. `running(false)` when it
-  /// stops.
+  /// `running(true)` is called when a client starts the stream, and may refuse by false; `running(false)`
+  /// when the client stops it.
   ModuleStream(StreamKind kind, std::function<FieldOfView()> field_of_view,
                std::function<bool(bool)> running);
 
@@ -49,7 +48,7 @@ class ModuleStream : public WithProperties<oni::driver::StreamBase> {
 
   /// Hands on an image of the mode's size, or does nothing if the stream is stopped or the mode has changed
   /// under way. CV_16UC1 (mm, 0 = no reading; or infrared) or CV_8UC3 (red first). `missing_bytes` makes the
-  /// frame say that it is so much shorter than its size.
+  /// frame that many bytes shorter than its size.
   void deliver(const cv::Mat& image, int index, std::uint64_t timestamp_us, int missing_bytes = 0);
 
   OniStatus start() final;

@@ -12,12 +12,12 @@
 
 namespace saccade {
 
-/// The properties that a device or a stream of an OpenNI2 driver module answers to. A property is a plain
-/// value of a fixed size, or a text. Filled once by the owner's constructor; the functions given to it guard
-/// what they touch, so that get() and set() may be called on any thread.
+/// The properties of a device or a stream of an OpenNI2 driver module. A property is a plain value of a fixed
+/// size, or a text. Filled once by the owner's constructor; the functions given to it guard the data that
+/// they use, so that get() and set() may be called on any thread.
 class PropertyTable {
  public:
-  /// A property that can be read, and written if `set` is given; `set` says what it thinks of the value.
+  /// A property that can be read, and written if `set` is given; `set` returns whether it accepts the value.
   template <typename T>
   void add(int id, std::function<T()> get, std::function<OniStatus(const T&)> set = {}) {
     static_assert(std::is_trivially_copyable_v<T>);
@@ -69,13 +69,13 @@ class PropertyTable {
     return found->second.set(data, size);
   }
 
-  /// Calls tell(id, data, size) with each property's value, as a recorder that is attached wants it.
-  template <typename Tell>
-  void for_each(Tell tell) const {
+  /// Calls report(id, data, size) with each property's value, for a recorder that was attached.
+  template <typename Report>
+  void for_each(Report report) const {
     for (const auto& [id, property] : properties_) {
       std::string value(property.capacity, '\0');
       int size = static_cast<int>(value.size());
-      if (property.get(value.data(), &size) == ONI_STATUS_OK) tell(id, value.data(), size);
+      if (property.get(value.data(), &size) == ONI_STATUS_OK) report(id, value.data(), size);
     }
   }
 

@@ -15,22 +15,22 @@
 
 namespace saccade {
 
-/// The source of `spec`, opened, if it can be played as a device: it must be one that can be read again from
-/// its start, with a frame that can be used. Throws Error.
+/// Opens the source of `spec` to be played as a device: it must be possible to read it again from its start,
+/// and it must have a usable frame. Throws Error.
 std::unique_ptr<FrameSource> open_playable(const VirtualSpec& spec);
 
 /// A recorded or synthetic source as an OpenNI2 device. While a stream is started, a thread reads a frame at
 /// a time at the rate of the mode (the faster of two) and hands depth and colour on with one time stamp, the
 /// time since the device was opened at which the frame was due, and one index: frame k + 1 shows frame k of
-/// the source, which begins anew at its end. A frame of the source that is rejected is left out. A stream of
+/// the source, which begins again at its end. A frame that the source rejects is left out. A stream of
 /// half the rate gets every other frame.
 ///
-/// Depth is rounded to whole mm; what lies beyond the reach of 16 bits has no reading. A mode of half the
+/// Depth is rounded to mm; depth beyond the range of 16 bits is no reading. A mode of half the
 /// size shows the pixels of even rows and columns. Depth and colour of our sources are registered, whatever
 /// the property says. Mirroring, cropping, modes and the settings of the camera are kept and read back.
 class VirtualDevice final : public ModuleDevice {
  public:
-  /// What the device needs of its driver; any thread.
+  /// The device's connection to its driver; any thread.
   struct Plug {
     std::function<bool()> present;                     ///< plugged in: frames are handed on
     std::function<void()> count;                       ///< called after each frame

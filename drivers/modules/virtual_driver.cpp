@@ -11,7 +11,7 @@
 #include "drivers/modules/announcer.hpp"
 #include "drivers/modules/virtual_device.hpp"
 
-// What OpenNI2's macro below makes and deletes the driver with.
+// OpenNI2's macro below makes and deletes the driver with these.
 #define XN_NEW(type, ...) new type(__VA_ARGS__)
 #define XN_DELETE(pointer) delete (pointer)
 
@@ -22,15 +22,15 @@ constexpr const char* kVariable = "SACCADE_VIRTUAL_DEVICE";
 constexpr const char* kUri = "saccade-virtual://0";
 
 // The folder in which the program was started, whose paths the user means. While OpenNI2 loads a module it is
-// in the module's folder, with the whole program or, as ours does it, with one thread. In the first case only
-// the shell has told where the program was.
+// in the module's folder, with the whole program or, as ours does it, with one thread. In the first case
+// only PWD, which the shell sets, names the folder.
 std::filesystem::path folder_of_program() {
   namespace fs = std::filesystem;
   std::error_code code;
   const fs::path here = fs::current_path(code), main_thread = fs::read_symlink("/proc/self/cwd", code);
   if (!main_thread.empty() && main_thread != here) return main_thread;
-  const char* told = std::getenv("PWD");
-  return told != nullptr && fs::path(told).is_absolute() ? fs::path(told) : here;
+  const char* shell = std::getenv("PWD");
+  return shell != nullptr && fs::path(shell).is_absolute() ? fs::path(shell) : here;
 }
 
 class VirtualDriver final : public oni::driver::DriverBase {
@@ -48,7 +48,7 @@ class VirtualDriver final : public oni::driver::DriverBase {
       spec_->source = seen_from(folder_of_program(), spec_->source);
       open_playable(*spec_);  // now, so that the user learns at once what is wrong
     } catch (const std::exception& error) {
-      tell(error.what());
+      report(error.what());
       return ONI_STATUS_OK;  // a driver without devices
     }
     announcer_.emplace();
@@ -69,7 +69,7 @@ class VirtualDriver final : public oni::driver::DriverBase {
       return new VirtualDevice(*spec_, open_playable(*spec_),
                                {[this] { return present(); }, [this] { count(); },
                                 [this](const std::string& why) {
-                                  tell(why);
+                                  report(why);
                                   vanish(VirtualSpec::Loss::event);
                                 }});
     } catch (const std::exception& error) {
@@ -82,11 +82,11 @@ class VirtualDriver final : public oni::driver::DriverBase {
 
   void shutdown() override { announcer_.reset(); }
 
-  // Streams of one device have one clock and one time stamp a frame, whether it is asked for or not.
+  // Streams of one device always have one clock and one time stamp per frame.
   void* enableFrameSync(oni::driver::StreamBase**, int) override { return this; }
 
  private:
-  static void tell(const std::string& what) {
+  static void report(const std::string& what) {
     std::fprintf(stderr, "virtual device: %s: %s\n", kVariable, what.c_str());
   }
 

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "sources/source_kind.hpp"
 
 namespace saccade {
 namespace {
@@ -32,7 +33,7 @@ std::optional<std::chrono::milliseconds> duration(string_view text) {
   return std::chrono::milliseconds(*ms);
 }
 
-// Stores what could be read; false if nothing could.
+// Stores the value if there is one; false otherwise.
 template <typename Value, typename Target>
 bool store(const std::optional<Value>& value, Target& target) {
   if (value) target = *value;
@@ -49,11 +50,11 @@ bool read_loss(string_view text, VirtualSpec& spec) {
 
 struct Key {
   string_view name, expects;
-  bool (*read)(string_view, VirtualSpec&);  // false: not what is expected
+  bool (*read)(string_view, VirtualSpec&);  // false: another value than expected
 };
 
-constexpr string_view kCount = "a whole number of frames, 1..1000000000";
-constexpr string_view kDuration = "a whole number of ms, 0..86400000";
+constexpr string_view kCount = "a number of frames, 1..1000000000";
+constexpr string_view kDuration = "integer ms, 0..86400000";
 
 constexpr std::array<Key, 9> kKeys = {{
     {"loss_after", kCount, [](string_view v, VirtualSpec& s) { return store(count(v), s.loss_after); }},
@@ -76,7 +77,7 @@ std::string known_keys() {
   return names;
 }
 
-// Takes a pair that is the device's; false: it is not.
+// Takes a pair if its key is the device's; false if it is not.
 bool take_pair(string_view pair, const std::string& text, std::set<string_view>& seen, VirtualSpec& spec) {
   const auto equals = pair.find('=');
   const auto key = std::find_if(kKeys.begin(), kKeys.end(),
@@ -118,9 +119,8 @@ VirtualSpec parse_virtual(const std::string& text) {
 }
 
 std::string seen_from(const std::filesystem::path& folder, const std::string& source) {
-  for (const char* scheme : {"openni2", "synthetic:", "v4l2:"})
-    if (source.starts_with(scheme)) return source;
-  return (folder / source).lexically_normal();
+  const SourceKind* kind = kind_of(SourceInput(source));
+  return kind != nullptr && !kind->is_path ? source : (folder / source).lexically_normal().string();
 }
 
 }  // namespace saccade

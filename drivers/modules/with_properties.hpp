@@ -8,9 +8,8 @@
 
 namespace saccade {
 
-/// A device or a stream of a driver module (`Base`: OpenNI2's DeviceBase or StreamBase) that answers for its
-/// properties from a table, and tells OpenNI2 of each that was set.
-/// Thread safety: that of PropertyTable.
+/// A device or a stream of a driver module (`Base`: OpenNI2's DeviceBase or StreamBase) whose properties are
+/// in a table. Reports each that was set to OpenNI2. Thread safety: that of PropertyTable.
 template <typename Base>
 class WithProperties : public Base {
  public:
@@ -33,7 +32,7 @@ class WithProperties : public Base {
   }
 
  protected:
-  PropertyTable properties_;  // filled by the constructors of what derives from this
+  PropertyTable properties_;  // filled by the constructors of derived classes
 
  private:
   void tell_changed(int id, const void* data, int size) {

@@ -9,10 +9,10 @@
 
 namespace saccade {
 
-/// Puts the depth and colour frames of one device together by the device's clock. The colour of a depth frame
-/// is the nearest colour frame that is at most half a period of depth away (16.7 ms at 30 Hz): such a one
-/// belongs to no other depth frame. A depth frame waits for its colour until a later colour frame or the next
-/// depth frame comes, and then goes without.
+/// Pairs the depth and colour frames of one device by the device's clock. The colour of a depth frame is the
+/// nearest colour frame that is at most half a period of depth away (16.7 ms at 30 Hz), so that it belongs to
+/// no other depth frame. A depth frame waits for its colour until a later colour frame or the next depth
+/// frame arrives, and then goes without.
 ///
 /// The period is the mode's, or the shortest of the last 32 gaps between depth frames if that is less: a
 /// device may be faster than its mode says. Not thread-safe.

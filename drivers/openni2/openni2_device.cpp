@@ -15,18 +15,18 @@ namespace {
 
 constexpr const char* kHint = "saccade doctor looks for the reason";
 
-// Why a frame's memory cannot be an image of this size; empty if it can.
-std::string bad_buffer(const openni::VideoFrameRef& frame, cv::Size size, int bytes_per_pixel) {
+// Whether a frame's memory holds an image of this size.
+Outcome check_memory(const openni::VideoFrameRef& frame, cv::Size size, int bytes_per_pixel) {
   if (frame.getWidth() != size.width || frame.getHeight() != size.height)
-    return fmt::format("it is {}x{}, not {}x{}", frame.getWidth(), frame.getHeight(), size.width,
-                       size.height);
+    return Outcome::failure(
+        fmt::format("it is {}x{}, not {}x{}", frame.getWidth(), frame.getHeight(), size.width, size.height));
   const std::int64_t stride = frame.getStrideInBytes();
   const std::int64_t needed = stride * size.height;
   if (frame.getData() == nullptr || stride < std::int64_t{size.width} * bytes_per_pixel ||
       frame.getDataSize() < needed)
-    return fmt::format("it has {} bytes, not {}", frame.getDataSize(),
-                       std::max(needed, std::int64_t{size.area()} * bytes_per_pixel));
-  return "";
+    return Outcome::failure(fmt::format("it has {} bytes, not {}", frame.getDataSize(),
+                                        std::max(needed, std::int64_t{size.area()} * bytes_per_pixel)));
+  return Outcome::success();
 }
 
 cv::Mat as_image(const openni::VideoFrameRef& frame, int type) {
@@ -50,10 +50,10 @@ std::optional<bool> truth(const openni::VideoStream& stream, int id) {
 
 }  // namespace
 
-// OpenNI2 crashes or hangs in stop() and destroy() where a NewFrameListener is still attached: its own thread
-// may be inside the listener (12 and 18 of 80 runs with one; none of 80 without, or with one removed before
-// stop()). So nothing listens here: one thread waits, reads and closes, no frame is held past its copy, and
-// no pause is needed.
+// OpenNI2 crashes or hangs in stop() and destroy() while a NewFrameListener is attached, because its own
+// thread may be inside the listener (12 and 18 of 80 runs with a listener; none of 80 without one, or with
+// one removed before stop()). So there is no listener: one thread waits, reads and closes, no frame is held
+// after it is copied, and no pause is needed.
 struct OpenNi2Device::Streams {
   ~Streams() {
     for (openni::VideoStream* stream : {&depth, &colour})
@@ -142,7 +142,7 @@ void OpenNi2Device::apply(const SensorValues& wanted) {
 }
 
 void OpenNi2Device::note_differences(const SensorValues& wanted) {
-  // `usual` is what a device without the setting does, which needs no word if it is what was wanted.
+  // `usual` is how a device without the setting behaves; if that was wanted there is nothing to report.
   const auto compare = [&](const char* what, std::optional<bool> asked, std::optional<bool> is, bool usual) {
     if (!asked || *asked == is.value_or(usual)) return;
     notes_.push_back(fmt::format("{} was turned {}, but the device {}", what, *asked ? "on" : "off",
@@ -217,33 +217,34 @@ OpenNi2Device::Ready OpenNi2Device::wait(std::chrono::milliseconds timeout) {
   return index == 0 ? Ready::depth : Ready::colour;
 }
 
-std::string OpenNi2Device::read_depth(cv::Mat1f& depth_mm, std::int64_t& time_us) {
+Outcome OpenNi2Device::read_depth(cv::Mat1f& depth_mm, std::int64_t& time_us) {
   openni::VideoFrameRef frame;
-  if (streams_->depth.readFrame(&frame) != openni::STATUS_OK) return "it cannot be read";
+  if (streams_->depth.readFrame(&frame) != openni::STATUS_OK) return Outcome::failure("it cannot be read");
   time_us = static_cast<std::int64_t>(frame.getTimestamp());
   const openni::PixelFormat format = frame.getVideoMode().getPixelFormat();
   if (format != openni::PIXEL_FORMAT_DEPTH_1_MM && format != openni::PIXEL_FORMAT_DEPTH_100_UM)
-    return "it is not depth in mm or 100 um";
-  if (std::string why = bad_buffer(frame, size_, 2); !why.empty()) return why;
+    return Outcome::failure("it is not depth in mm or 100 um");
+  if (Outcome outcome = check_memory(frame, size_, 2); !outcome) return outcome;
   as_image(frame, CV_16UC1)
       .convertTo(depth_mm, CV_32F, format == openni::PIXEL_FORMAT_DEPTH_1_MM ? 1.0 : 0.1);
-  return "";
+  return Outcome::success();
 }
 
-std::string OpenNi2Device::read_colour(cv::Mat3b& colour, std::int64_t& time_us) {
+Outcome OpenNi2Device::read_colour(cv::Mat3b& colour, std::int64_t& time_us) {
   openni::VideoFrameRef frame;
-  if (streams_->colour.readFrame(&frame) != openni::STATUS_OK) return "it cannot be read";
+  if (streams_->colour.readFrame(&frame) != openni::STATUS_OK) return Outcome::failure("it cannot be read");
   time_us = static_cast<std::int64_t>(frame.getTimestamp());
-  if (frame.getVideoMode().getPixelFormat() != openni::PIXEL_FORMAT_RGB888) return "it is not RGB";
+  if (frame.getVideoMode().getPixelFormat() != openni::PIXEL_FORMAT_RGB888)
+    return Outcome::failure("it is not RGB");
   const cv::Size size(frame.getWidth(), frame.getHeight());
-  if (std::string why = bad_buffer(frame, size, 3); !why.empty()) return why;
+  if (Outcome outcome = check_memory(frame, size, 3); !outcome) return outcome;
   if (size == size_) {
     cv::cvtColor(as_image(frame, CV_8UC3), colour, cv::COLOR_RGB2BGR);
-    return "";
+    return Outcome::success();
   }
   cv::resize(as_image(frame, CV_8UC3), colour, size_, 0, 0, cv::INTER_AREA);
   cv::cvtColor(colour, colour, cv::COLOR_RGB2BGR);
-  return "";
+  return Outcome::success();
 }
 
 }  // namespace saccade

@@ -10,6 +10,7 @@
 #include <opencv2/core.hpp>
 
 #include "core/intrinsics.hpp"
+#include "core/outcome.hpp"
 #include "core/sensor_controls.hpp"
 #include "core/sensor_settings.hpp"
 #include "drivers/openni2/openni2_runtime.hpp"
@@ -22,9 +23,8 @@ class OpenNi2Device {
  public:
   enum class Ready { nothing, depth, colour };
 
-  /// Opens and starts it, then sets what `settings` and `wanted` ask for and reads it back; differences are
-  /// told in notes(). Throws Error: (usage) it lacks the mode that was asked for, (failed) it cannot be
-  /// opened.
+  /// Opens and starts it, then applies `settings` and `wanted` and reads them back; notes() has the
+  /// differences. Throws Error: (usage) it lacks the mode in `settings`, (failed) it cannot be opened.
   OpenNi2Device(const DeviceIdentity& identity, const SensorSettings& settings, const SensorValues& wanted);
   ~OpenNi2Device();
   OpenNi2Device(const OpenNi2Device&) = delete;
@@ -35,24 +35,24 @@ class OpenNi2Device {
   int rate_hz() const { return rate_hz_; }
   const std::vector<SensorMode>& modes() const { return modes_; }  ///< in which it can give depth
   bool has_colour() const;
-  /// From the field of view that the device tells, of the camera that depth is seen from: with registration
-  /// that is the colour camera. A guess where it tells none.
+  /// From the field of view that the device reports for the camera that depth is seen from: with registration
+  /// that is the colour camera. A guess where it reports none.
   const Intrinsics& intrinsics() const { return intrinsics_; }
   const std::vector<std::string>& notes() const { return notes_; }
 
   /// As read back after they were last set.
   const SensorValues& values() const { return values_; }
-  /// Sets what is not empty and reads it back; differences go to notes(), in place of those of the last time.
+  /// Sets the values that `wanted` has and reads them back; notes() then has the new differences.
   void apply(const SensorValues& wanted);
 
-  /// Waits for a frame; which stream has one.
+  /// Waits for a frame; the stream that has one.
   Ready wait(std::chrono::milliseconds timeout);
 
-  /// Reads the frame that wait() has told of, into `depth_mm` or `colour` (BGR, scaled to size() if the
-  /// device has no such mode), reusing their memory. `time_us` is the device's clock, the same for both. The
-  /// reason if the frame cannot be used: too few bytes, cropped, of another format; empty if all is well.
-  std::string read_depth(cv::Mat1f& depth_mm, std::int64_t& time_us);
-  std::string read_colour(cv::Mat3b& colour, std::int64_t& time_us);
+  /// Reads the frame that wait() announced into `depth_mm` (0 = no reading) or `colour` (BGR, scaled to
+  /// size() if the device has no such mode), reusing their memory. `time_us` is the device's clock, one for
+  /// both. Fails if the frame cannot be used: too few bytes, cropped, another format.
+  Outcome read_depth(cv::Mat1f& depth_mm, std::int64_t& time_us);
+  Outcome read_colour(cv::Mat3b& colour, std::int64_t& time_us);
 
  private:
   struct Streams;
@@ -73,7 +73,7 @@ class OpenNi2Device {
   Intrinsics intrinsics_;
   SensorValues values_;
   std::vector<std::string> notes_;
-  std::size_t opening_notes_ = 0;  // so many are of the opening, the others of the last apply()
+  std::size_t opening_notes_ = 0;  // the first of notes_; the others are of the last apply()
 };
 
 }  // namespace saccade

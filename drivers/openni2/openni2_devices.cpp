@@ -10,7 +10,7 @@
 namespace saccade {
 namespace {
 
-// OpenNI2 does not tell which module a device comes from; the form of its URI does.
+// OpenNI2 does not say which module a device comes from; the form of its URI does.
 std::string driver_of(const DeviceIdentity& device) {
   if (device.uri.starts_with("saccade-virtual:")) return "SaccadeVirtual";
   if (device.uri.starts_with("freenect:")) return "SaccadeFreenect";

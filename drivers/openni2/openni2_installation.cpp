@@ -7,30 +7,30 @@
 #include <OpenNI.h>
 #include <fmt/format.h>
 
+#include "core/outcome.hpp"
+
 namespace saccade {
 namespace fs = std::filesystem;
 namespace {
 
 constexpr std::string_view kPrefix = "lib", kSuffix = ".so.0";  // as OpenNI2 looks for them
 
-std::string load_problem(const fs::path& module) {
+// Whether a module can be loaded.
+Outcome try_to_load(const fs::path& module) {
   void* handle = ::dlopen(module.c_str(), RTLD_NOW | RTLD_LOCAL);
-  if (handle == nullptr) return ::dlerror();
+  if (handle == nullptr) return Outcome::failure(::dlerror());
   const bool is_driver = ::dlsym(handle, "oniDriverCreate") != nullptr;
   ::dlclose(handle);
-  return is_driver ? "" : "it is no driver module";
+  return is_driver ? Outcome::success() : Outcome::failure("it is not a driver module");
 }
 
 }  // namespace
 
-const OpenNi2Installation::Module* OpenNi2Installation::module(const std::string& name) const {
-  const auto found =
-      std::find_if(modules.begin(), modules.end(), [&](const auto& m) { return m.name == name; });
-  return found == modules.end() ? nullptr : &*found;
-}
-
 OpenNi2Installation find_openni2() {
   OpenNi2Installation found;
+#ifdef SACCADE_NO_FREENECT
+  found.left_out = {"SaccadeFreenect"};
+#endif
   const openni::Version version = openni::OpenNI::getVersion();
   found.version =
       fmt::format("{}.{}.{}.{}", version.major, version.minor, version.maintenance, version.build);
@@ -43,7 +43,7 @@ OpenNi2Installation find_openni2() {
     const std::string file = entry.path().filename().string();
     if (!file.starts_with(kPrefix) || !file.ends_with(kSuffix)) continue;
     found.modules.push_back({file.substr(kPrefix.size(), file.size() - kPrefix.size() - kSuffix.size()),
-                             entry.path(), load_problem(entry.path())});
+                             entry.path(), try_to_load(entry.path()).reason()});
   }
   std::sort(found.modules.begin(), found.modules.end(),
             [](const auto& a, const auto& b) { return a.name < b.name; });

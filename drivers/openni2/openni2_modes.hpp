@@ -9,14 +9,14 @@
 
 namespace saccade {
 
-/// A mode of a sensor in our words and in OpenNI2's.
+/// A mode of a sensor, in Saccade's form and in OpenNI2's.
 struct OfferedMode {
   SensorMode mode;
   openni::VideoMode original;
 };
 
-/// The modes of an open device in the formats that can be read, each once: depth in mm, then what comes in
-/// 100 um only; colour as RGB. Empty if it has no such sensor.
+/// The modes of an open device in the formats that can be read, each once: depth in mm, then modes that exist
+/// in 100 um only; colour as RGB. Empty if it has no such sensor.
 std::vector<OfferedMode> depth_modes(openni::Device& device);
 std::vector<OfferedMode> colour_modes(openni::Device& device);
 

@@ -8,6 +8,7 @@
 #include <OpenNI.h>
 
 #include "core/error.hpp"
+#include "core/outcome.hpp"
 #include "drivers/openni2/openni2_thread.hpp"
 
 namespace saccade {
@@ -17,18 +18,18 @@ DeviceIdentity identity_of(const openni::DeviceInfo& info) {
   return {info.getUri(), info.getVendor(), info.getName(), info.getUsbVendorId(), info.getUsbProductId()};
 }
 
-// Why it could not; empty if it could. OpenNI2 moves to the folder of its modules while it loads them, which
-// would lead astray whoever opens a relative path just then. So the thread that uses it gets a working
-// directory of its own; where a sandbox does not allow that, it starts all the same.
-std::string start_openni2() {
-  std::string why;
-  on_openni2_thread([&why] {
+// OpenNI2 changes to the folder of its modules while it loads them, and a relative path that another thread
+// opens just then would be another file. So the thread that uses it gets a working directory of its own;
+// where a sandbox does not allow that, OpenNI2 starts all the same.
+Outcome start_openni2() {
+  Outcome outcome = Outcome::success();
+  on_openni2_thread([&outcome] {
     ::unshare(CLONE_FS);
     if (openni::OpenNI::initialize() == openni::STATUS_OK) return;
-    why = openni2_complaint();
+    outcome = Outcome::failure(openni2_complaint());
     openni::OpenNI::shutdown();
   });
-  return why;
+  return outcome;
 }
 
 }  // namespace
@@ -42,8 +43,7 @@ std::string openni2_complaint() {
   return complaint.empty() ? "it does not say why" : complaint;
 }
 
-// OpenNI2 calls it on the threads of its drivers; it only notes what it is told, since a driver may hold
-// locks.
+// OpenNI2 calls it on the threads of its drivers, which may hold locks; so it only takes notes.
 class OpenNi2Runtime::Listener final : public openni::OpenNI::DeviceConnectedListener,
                                        public openni::OpenNI::DeviceDisconnectedListener,
                                        public openni::OpenNI::DeviceStateChangedListener {
@@ -94,8 +94,8 @@ OpenNi2Runtime& OpenNi2Runtime::instance() {
 }
 
 OpenNi2Runtime::OpenNi2Runtime() : listener_(std::make_unique<Listener>()) {
-  if (const std::string why = start_openni2(); !why.empty())
-    throw failed("OpenNI2 does not start", why, "saccade doctor looks for the reason");
+  if (const Outcome outcome = start_openni2(); !outcome)
+    throw failed("OpenNI2 does not start", outcome.reason(), "saccade doctor looks for the reason");
   on_openni2_thread([this] {
     openni::OpenNI::addDeviceConnectedListener(listener_.get());
     openni::OpenNI::addDeviceDisconnectedListener(listener_.get());

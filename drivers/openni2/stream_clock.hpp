@@ -6,15 +6,15 @@
 
 namespace saccade {
 
-/// Makes times of frames that go on through losses of the device, out of the device's clock and this
-/// machine's. The first frame has the time 0. While the device is there its clock counts, since it knows best
-/// when a frame was taken; where it starts anew, or jumps by more than a second against the machine's clock,
-/// the latter tells how much time has passed. Times always grow. Not thread-safe.
+/// Times of frames that go on through losses of the device, from the device's clock and this machine's. The
+/// first frame has the time 0. While the device is there its clock counts, because it is nearest to the
+/// exposure; where it starts again, or jumps by more than a second against the machine's clock, the machine's
+/// clock gives the time that has passed. Times always increase. Not thread-safe.
 class StreamClock {
  public:
   using Clock = std::chrono::steady_clock;
 
-  /// The device was opened again: its clock may have started anew.
+  /// The device was opened again: its clock may have restarted.
   void restart() { last_.reset(); }
 
   /// The time of a frame, us since the first: `device_us` is the device's own, `now` when it came.

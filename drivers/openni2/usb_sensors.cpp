@@ -75,7 +75,7 @@ const UsbSensorKind* kind_of(std::uint16_t vendor, std::uint16_t product) {
   return found == std::end(kKinds) ? nullptr : found;
 }
 
-// ATTR{key}=="value" or ATTRS{key}=="value"; also true if the line does not speak of the key and `or_absent`.
+// ATTR{key}=="value" or ATTRS{key}=="value"; also true if the line does not have the key and `or_absent`.
 bool matches(const std::string& line, const std::string& key, const std::string& value, bool or_absent) {
   if (line.find("{" + key + "}") == std::string::npos) return or_absent;
   return line.find("{" + key + "}==\"" + value + "\"") != std::string::npos;

@@ -40,8 +40,8 @@ struct UsbSensor {
   std::string kernel_driver;   ///< that has taken its first interface; empty = none
 };
 
-/// What is plugged in, from `sysfs` ("/sys" on a real machine) and, beside it, dev/bus/usb and
-/// {etc,run,usr/lib,lib}/udev/rules.d. Nothing that cannot be read is an error: no USB gives an empty list.
+/// The sensors that are plugged in, from `sysfs` ("/sys" on a real machine) and, beside it, dev/bus/usb and
+/// {etc,run,usr/lib,lib}/udev/rules.d. Unreadable files are no error: without USB the list is empty.
 std::vector<UsbSensor> find_usb_sensors(const std::filesystem::path& sysfs);
 
 }  // namespace saccade

@@ -30,11 +30,19 @@ std::string access_remedy(const UsbSensor& sensor) {
   return apply + ", then plug it in again";
 }
 
+bool left_out(const Examination& found, std::string_view module) {
+  return std::ranges::count(found.openni2.left_out, module) > 0;
+}
+
 void check_openni2(const Examination& found, std::vector<Problem>& problems) {
+  if (!found.openni2.in_this_build) {
+    problems.push_back({found.openni2_error, "configure with -DSACCADE_OPENNI2=ON and build again"});
+    return;
+  }
   const std::string reinstall = "sudo apt-get install --reinstall libopenni2-0";
   if (!found.openni2_error.empty()) problems.push_back({found.openni2_error, reinstall});
-  for (const char* name : kOwnModules)
-    if (found.openni2.module(name) == nullptr)
+  for (const std::string_view name : kOwnModules)
+    if (!left_out(found, name) && found.openni2.module(name) == nullptr)
       problems.push_back(
           {fmt::format("our driver module {} is not in {}", name, found.openni2.driver_folder.string()),
            "./run --help, which first builds what is missing"});
@@ -50,9 +58,14 @@ void check_openni2(const Examination& found, std::vector<Problem>& problems) {
            fmt::format("ldd {}", module.path.string())});
 }
 
-void check_sensor(const UsbSensor& sensor, std::vector<Problem>& problems) {
+void check_sensor(const UsbSensor& sensor, const Examination& found, std::vector<Problem>& problems) {
   if (sensor.kind.part == Part::companion) return;  // motor and audio are slow and left alone
   const std::string name = title(sensor);
+  if (found.openni2.in_this_build && left_out(found, sensor.kind.module)) {
+    problems.push_back({name + ": this build has no driver module for it",
+                        "configure with -DSACCADE_FREENECT=ON and build again"});
+    return;
+  }
   if (sensor.kind.part == Part::unsupported) {
     problems.push_back({name + ": no driver module for it is here",
                         "use its maker's OpenNI2 module: copy it to the driver folder"});
@@ -88,7 +101,7 @@ bool has(const std::vector<UsbSensor>& sensors, Part part) {
 std::vector<Problem> diagnose(const Examination& found) {
   std::vector<Problem> problems;
   check_openni2(found, problems);
-  for (const UsbSensor& sensor : found.usb) check_sensor(sensor, problems);
+  for (const UsbSensor& sensor : found.usb) check_sensor(sensor, found, problems);
   const bool camera = has(found.usb, Part::camera);
   if (!camera && has(found.usb, Part::companion))
     problems.push_back({"a Kinect is connected, but its camera is not there: it has no power",

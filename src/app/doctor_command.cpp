@@ -66,7 +66,8 @@ Json to_json(const Examination& found, const std::vector<Problem>& problems) {
     list.push_back({{"problem", problem.what}, {"remedy", problem.remedy}});
   return {{"ok", problems.empty()},
           {"openni2",
-           {{"library", found.openni2.library.string()},
+           {{"in_this_build", found.openni2.in_this_build},
+            {"library", found.openni2.library.string()},
             {"version", found.openni2.version},
             {"driver_folder", found.openni2.driver_folder.string()},
             {"modules", modules}}},
@@ -76,8 +77,12 @@ Json to_json(const Examination& found, const std::vector<Problem>& problems) {
 }
 
 void tell(const Examination& found, const std::vector<Problem>& problems) {
-  fmt::print("OpenNI2   {} ({})\n", found.openni2.version, found.openni2.library.string());
-  fmt::print("drivers   in {}\n", found.openni2.driver_folder.string());
+  if (found.openni2.in_this_build) {
+    fmt::print("OpenNI2   {} ({})\n", found.openni2.version, found.openni2.library.string());
+    fmt::print("drivers   in {}\n", found.openni2.driver_folder.string());
+  } else {
+    fmt::print("OpenNI2   not in this build\n");
+  }
   for (const auto& module : found.openni2.modules)
     fmt::print("          {}{}\n", module.name, module.problem.empty() ? "" : ": " + module.problem);
   if (found.usb.empty()) fmt::print("USB       nothing that looks like a sensor\n");

@@ -16,6 +16,7 @@
 #include "app/interrupt.hpp"
 #include "app/options.hpp"
 #include "app/progress.hpp"
+#include "app/source_option.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "core/png.hpp"
@@ -235,9 +236,8 @@ void add_eval_command(CLI::App& app, std::function<void()>& action) {
       *app.add_subcommand("eval", "Hit Ratio of models, kernels and selectors on labelled images");
   const auto state = std::make_shared<State>(command);
   EvalArguments& a = state->arguments;
-  auto* dataset = command.add_option(
-      "DATASET", a.dataset,
-      "a folder of labelled images, FILE.mat of NYU Depth V2, or synthetic:NAME?key=value&...");
+  auto* dataset = add_source_option(command, "DATASET", a.dataset,
+                                    "a source whose images have labels; see the end of this help");
   command.add_option("--out", a.out, "folder to write to, made if it is not there")
       ->required()
       ->type_name("DIR");

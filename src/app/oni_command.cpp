@@ -53,14 +53,14 @@ Json stream_json(const OniStreamInfo& stream) {
                           {"cy", camera.cy},
                           {"origin", to_string(camera.origin)}};
   }
-  if (!stream.unusable.empty()) json["unusable"] = stream.unusable;
+  if (stream.unusable) json["unusable"] = *stream.unusable;
   return json;
 }
 
 void print_stream(const OniStreamInfo& stream) {
   fmt::print("  {:<6} {:<4} {} x {}, {}, {} frame{}, {:.2f} s", to_string(stream.type),
              to_string(stream.codec), stream.size.width, stream.size.height,
-             stream.unusable.empty() ? stream.pixels : "unusable: " + stream.unusable, stream.frames,
+             stream.unusable ? "unusable: " + *stream.unusable : stream.pixels, stream.frames,
              stream.frames == 1 ? "" : "s", stream.duration_s());
   if (stream.measured_rate_hz > 0) fmt::print(", {:.2f}/s", stream.measured_rate_hz);
   if (stream.nominal_rate_hz > 0) fmt::print(" (nominal {:g})", stream.nominal_rate_hz);

@@ -22,6 +22,7 @@
 #include "app/interrupt.hpp"
 #include "app/manifest.hpp"
 #include "app/options.hpp"
+#include "app/source_option.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "oni/recorder.hpp"
@@ -222,7 +223,7 @@ void add_record_command(CLI::App& app, std::function<void()>& action) {
   CLI::App& command = *app.add_subcommand("record", "record a source to an .oni file");
   const auto arguments = std::make_shared<RecordArguments>();
   RecordArguments& a = *arguments;
-  command.add_option("SOURCE", a.source, "what to record, as for run")->required();
+  add_source_option(command, "SOURCE", a.source, "what to record; see the end of this help")->required();
   command.add_option("FILE", a.file, "the .oni file to make")->required();
   command.add_option("--duration", a.duration_s, "stop after so many seconds; 0 = do not")
       ->type_name("S")

@@ -19,6 +19,7 @@
 #include "app/manifest.hpp"
 #include "app/options.hpp"
 #include "app/progress.hpp"
+#include "app/source_option.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "models/model.hpp"
@@ -229,10 +230,7 @@ void add_run_command(CLI::App& app, std::function<void()>& action, std::vector<s
       *app.add_subcommand("run", "process a source without a window; write maps, overlays, fixations");
   const auto arguments = std::make_shared<RunArguments>();
   arguments->command_line = std::move(command_line);
-  command
-      .add_option("SOURCE", arguments->source,
-                  "openni2 (a live sensor), openni2:URI, a folder of images, FILE.oni, a video, or "
-                  "synthetic:NAME?key=value&...")
+  add_source_option(command, "SOURCE", arguments->source, "what to process; see the end of this help")
       ->required();
   command.add_option("--out", arguments->out, "folder to write to, made if it is not there")
       ->required()

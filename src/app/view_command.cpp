@@ -9,10 +9,12 @@
 #include "app/command.hpp"
 #include "app/interrupt.hpp"
 #include "app/options.hpp"
+#include "app/source_option.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
+#include "drivers/openni2/openni2_devices.hpp"
 #include "sources/open_source.hpp"
-#include "ui/viewer/viewer.hpp"
+#include "ui/window/viewer.hpp"
 
 namespace saccade {
 namespace fs = std::filesystem;
@@ -26,6 +28,14 @@ struct ViewArguments {
   double ui_scale = 0;
   bool paused = false;
 };
+
+std::vector<DeviceChoice> connected_sensors() {
+  std::vector<DeviceChoice> choices;
+  for (const DeviceListing& device : list_devices())
+    choices.push_back({device.identity.name.empty() ? device.identity.uri : device.identity.name,
+                       device.source, device.driver.empty() ? device.identity.vendor : device.driver});
+  return choices;
+}
 
 cv::Size parse_size(const std::string& text) {
   int width = 0, height = 0;
@@ -64,8 +74,8 @@ void view(const ViewArguments& arguments, const SettingsOptions& options) {
   ViewState state;
   const fs::path folder = config_folder(), file = folder.empty() ? fs::path() : folder / "viewer.json";
   load_state(state, file);
-  Settings& settings = state.tuning.a = options.resolve(state.tuning.a);
-  share_source(state.tuning);
+  Settings& settings = state.settings.a = options.resolve(state.settings.a);
+  share_source(state.settings);
   if (arguments.ui_scale > 0) state.ui_scale = arguments.ui_scale;
   set_log_level(settings);
 
@@ -88,7 +98,7 @@ void view(const ViewArguments& arguments, const SettingsOptions& options) {
     stopped = true;
     if (running != nullptr) running->stop();
   });
-  Viewer viewer(std::move(state), std::move(viewer_options), open_source);
+  Viewer viewer(std::move(state), std::move(viewer_options), open_source, connected_sensors);
   {
     const std::lock_guard lock(mutex);
     running = &viewer;
@@ -116,7 +126,8 @@ void add_view_command(CLI::App& app, std::function<void()>& action) {
   CLI::App& command = *app.add_subcommand("view", "the viewer: see what attracts attention, and tune it");
   const auto arguments = std::make_shared<ViewArguments>();
   ViewArguments& a = *arguments;
-  command.add_option("SOURCE", a.source, "as for run; the bundled recording if there is none");
+  add_source_option(command, "SOURCE", a.source,
+                    "what to show, see the end of this help; the bundled recording if there is none");
   command.add_option("--size", a.size, "of the window in pixels, instead of the last time's")
       ->type_name("WxH");
   command

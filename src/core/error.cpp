@@ -28,5 +28,8 @@ Error usage_error(const std::string& what, const std::string& on, const std::str
 Error unreadable(const std::string& what, const std::string& on, const std::string& hint) {
   return {ExitStatus::unreadable, what, on, hint};
 }
+Error not_in_this_build(const std::string& part, const std::string& option) {
+  return usage_error("this build has no " + part, "", "it was configured with " + option + "=OFF");
+}
 
 }  // namespace saccade

@@ -31,4 +31,7 @@ Error failed(const std::string& what, const std::string& on, const std::string& 
 Error usage_error(const std::string& what, const std::string& on, const std::string& hint);
 Error unreadable(const std::string& what, const std::string& on, const std::string& hint);
 
+/// For a part that this build leaves out, an Error (usage): "OpenNI2", by the CMake option "SACCADE_OPENNI2".
+Error not_in_this_build(const std::string& part, const std::string& option);
+
 }  // namespace saccade

@@ -36,7 +36,7 @@ Context open(std::span<const std::uint8_t> png, spng_ihdr& header) {
   return context;
 }
 
-bool is_gray_or_palette(const spng_ihdr& header) {
+bool is_grey_or_palette(const spng_ihdr& header) {
   return header.color_type == SPNG_COLOR_TYPE_GRAYSCALE || header.color_type == SPNG_COLOR_TYPE_INDEXED;
 }
 
@@ -45,7 +45,7 @@ void decode_pixels(spng_ctx* context, cv::Mat& image, int format) {
   check(spng_decode_chunks(context));  // to the end, so that a file cut there is noticed
 }
 
-// SPNG_FMT_PNG leaves samples below 8 bits packed; G8 widens gray ones but scales them, which labels must not
+// SPNG_FMT_PNG leaves samples below 8 bits packed; G8 widens grey ones but scales them, which labels must not
 // be.
 cv::Mat unpack(const cv::Mat1b& packed, cv::Size size, int bits) {
   cv::Mat1b image(size);
@@ -65,10 +65,10 @@ PngHeader read_png_header(std::span<const std::uint8_t> png) {
   const char* channels = "RGBA";
   switch (header.color_type) {
     case SPNG_COLOR_TYPE_GRAYSCALE:
-      channels = "gray";
+      channels = "grey";
       break;
     case SPNG_COLOR_TYPE_GRAYSCALE_ALPHA:
-      channels = "gray+alpha";
+      channels = "grey+alpha";
       break;
     case SPNG_COLOR_TYPE_TRUECOLOR:
       channels = "RGB";
@@ -88,7 +88,7 @@ cv::Mat decode_png(std::span<const std::uint8_t> png) {
   const Context context = open(png, header);
   const cv::Size size(static_cast<int>(header.width), static_cast<int>(header.height));
   const int bits = header.bit_depth;
-  if (!is_gray_or_palette(header)) {
+  if (!is_grey_or_palette(header)) {
     cv::Mat image(size, CV_8UC3);
     decode_pixels(context.get(), image, SPNG_FMT_RGB8);
     cv::cvtColor(image, image, cv::COLOR_RGB2BGR);
@@ -102,7 +102,7 @@ cv::Mat decode_png(std::span<const std::uint8_t> png) {
 
 std::vector<std::uint8_t> encode_png(const cv::Mat& image) {
   if (image.empty() || (image.type() != CV_8UC1 && image.type() != CV_16UC1 && image.type() != CV_8UC3))
-    throw std::invalid_argument("encode_png: 8-bit gray, 16-bit gray or 8-bit BGR expected");
+    throw std::invalid_argument("encode_png: 8-bit grey, 16-bit grey or 8-bit BGR expected");
   cv::Mat pixels;  // continuous, in the file's order; never the caller's own memory
   if (image.channels() == 3)
     cv::cvtColor(image, pixels, cv::COLOR_BGR2RGB);

@@ -16,13 +16,13 @@ inline constexpr int kLargestSide = 8192;
 struct PngHeader {
   cv::Size size;
   int bits = 0;          ///< per sample: 1, 2, 4, 8 or 16
-  std::string channels;  ///< "gray", "gray+alpha", "RGB", "RGBA" or "palette"
+  std::string channels;  ///< "grey", "grey+alpha", "RGB", "RGBA" or "palette"
 };
 
 /// Throws std::runtime_error with the reason if this is no PNG or larger than kLargestSide a side.
 PngHeader read_png_header(std::span<const std::uint8_t> png);
 
-/// Decodes gray PNGs of 8 or 16 bits as they are (CV_8UC1, CV_16UC1), palette images as their 8-bit indices,
+/// Decodes grey PNGs of 8 or 16 bits as they are (CV_8UC1, CV_16UC1), palette images as their 8-bit indices,
 /// and everything in colour as 8-bit BGR (CV_8UC3). Throws std::runtime_error with the reason, also for a cut
 /// file.
 cv::Mat decode_png(std::span<const std::uint8_t> png);

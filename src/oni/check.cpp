@@ -83,14 +83,14 @@ class Checker {
     cv::Mat3b colour;
     for (std::size_t k = 0; k < node.frames.size(); ++k) {
       const OniFrameEntry& frame = node.frames[k];
-      const std::string fault = node.declared.type == OniNodeType::depth
-                                    ? recording_.read_stored_depth(node, k, depth)
-                                    : recording_.read_colour(node, k, colour);
-      if (!fault.empty()) {
-        // What a camera called JPEG is stored as it came; the recording is not to blame.
-        const bool as_it_came = recording_.format(node, k).pixels == OniPixelFormat::jpeg;
-        add(frame.payload_position, as_it_came ? OniSeverity::warning : OniSeverity::error,
-            fmt::format("frame {} of node {}: {}", k, node.id, fault));
+      const Outcome read = node.declared.type == OniNodeType::depth
+                               ? recording_.read_stored_depth(node, k, depth)
+                               : recording_.read_colour(node, k, colour);
+      if (!read) {
+        // A camera's own JPEG is stored as it arrived: damage in it is not damage of the recording.
+        const bool from_camera = recording_.format(node, k).pixels == OniPixelFormat::jpeg;
+        add(frame.payload_position, from_camera ? OniSeverity::warning : OniSeverity::error,
+            fmt::format("frame {} of node {}: {}", k, node.id, read.reason()));
       }
       if (frame.number != k + 1 && !numbers_noted_) {
         numbers_noted_ = true;

@@ -13,7 +13,7 @@ namespace saccade {
 enum class Codec16z { plain, table };
 
 /// What came out of a payload.
-struct Decoded16z {
+struct [[nodiscard]] Decoded16z {
   std::size_t pixels = 0;       ///< written
   const char* fault = nullptr;  ///< what is wrong with the payload; nullptr = it is whole
 };
@@ -42,7 +42,8 @@ class Encoder16z {
   /// Appends the coded `pixels` (not empty) to `payload`. Returns false, and appends nothing, for the one
   /// kind of frame the format cannot hold: a jump to a symbol >= 32768, that is to such a depth in 16zP, or a
   /// frame of more than 32768 distinct depths in 16zT.
-  bool encode(Codec16z codec, std::span<const std::uint16_t> pixels, std::vector<std::uint8_t>& payload);
+  [[nodiscard]] bool encode(Codec16z codec, std::span<const std::uint16_t> pixels,
+                            std::vector<std::uint8_t>& payload);
 
  private:
   void build_table(std::span<const std::uint16_t> pixels);

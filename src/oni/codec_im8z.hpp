@@ -6,7 +6,7 @@
 namespace saccade {
 
 /// What came out of an Im8z payload.
-struct DecodedIm8z {
+struct [[nodiscard]] DecodedIm8z {
   std::size_t bytes = 0;        ///< written
   const char* fault = nullptr;  ///< what is wrong with the payload; nullptr = it is whole
 };

@@ -33,7 +33,7 @@ std::size_t bytes_per_pixel(OniPixelFormat format) {
   switch (format) {
     case OniPixelFormat::rgb888:
       return 3;
-    case OniPixelFormat::gray8:
+    case OniPixelFormat::grey8:
       return 1;
     case OniPixelFormat::jpeg:
       return 0;
@@ -91,10 +91,10 @@ std::string_view to_string(OniPixelFormat format) {
       return "RGB888";
     case OniPixelFormat::yuv422:
       return "YUV422";
-    case OniPixelFormat::gray8:
-      return "gray 8";
-    case OniPixelFormat::gray16:
-      return "gray 16";
+    case OniPixelFormat::grey8:
+      return "grey 8";
+    case OniPixelFormat::grey16:
+      return "grey 16";
     case OniPixelFormat::jpeg:
       return "JPEG of the camera";
     case OniPixelFormat::yuyv:

@@ -70,8 +70,8 @@ enum class OniPixelFormat : std::uint32_t {
   shift_9_3 = 103,
   rgb888 = 200,
   yuv422 = 201,  ///< U Y0 V Y1
-  gray8 = 202,
-  gray16 = 203,
+  grey8 = 202,
+  grey16 = 203,
   jpeg = 204,  ///< the camera's own JPEG, of any size
   yuyv = 205,  ///< Y0 U Y1 V
 };

@@ -40,7 +40,7 @@ OniStreamInfo describe_stream(const OniNode& node, std::uint64_t end) {
   stream.type = node.declared.type;
   stream.codec = node.declared.codec;
   stream.unusable = format.unusable;
-  if (format.unusable.empty()) stream.pixels = to_string(format.pixels);
+  if (!format.unusable) stream.pixels = to_string(format.pixels);
   stream.size = format.size;
   stream.crop = format.crop;
   stream.frames = node.frames.size();

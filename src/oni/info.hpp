@@ -18,10 +18,10 @@ struct OniStreamInfo {
   std::string name;
   OniNodeType type{};
   OniCodec codec{};
-  std::string pixels;    ///< e.g. "depth 1 mm"
-  std::string unusable;  ///< why its frames cannot be decoded; empty = they can
-  cv::Size size;         ///< full image, px; 0 x 0 = not told
-  cv::Rect crop;         ///< the part that frames hold
+  std::string pixels;                   ///< e.g. "depth 1 mm"
+  std::optional<std::string> unusable;  ///< why its frames cannot be decoded; absent = they can
+  cv::Size size;                        ///< full image, px; 0 x 0 = not told
+  cv::Rect crop;                        ///< the part that frames hold
   std::uint64_t frames = 0;
   std::uint64_t payload_bytes = 0;
   std::uint64_t first_us = 0, last_us = 0;  ///< least and largest time

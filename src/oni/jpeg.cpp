@@ -59,20 +59,23 @@ JpegCodec::JpegCodec() : handles_(std::make_unique<Handles>()) {
 
 JpegCodec::~JpegCodec() = default;
 
-std::string JpegCodec::decode(std::span<const std::uint8_t> payload, cv::Size size, cv::Mat3b& image) {
+Outcome JpegCodec::decode(std::span<const std::uint8_t> payload, cv::Size size, cv::Mat3b& image) {
   const auto shape = read_shape(payload);
-  if (!shape || (shape->components != 1 && shape->components != 3)) return "not a JPEG image";
+  if (!shape || (shape->components != 1 && shape->components != 3))
+    return Outcome::failure("not a JPEG image");
   if (shape->width != size.width || shape->height != size.height)
-    return fmt::format("a JPEG of {} x {} instead of {} x {}", shape->width, shape->height, size.width,
-                       size.height);
-  // Even a flat image takes some bytes: less than a bit per 64 pixels cannot be.
-  if (static_cast<std::size_t>(size.area()) / 512 > payload.size()) return "a JPEG too short for its size";
+    return Outcome::failure(fmt::format("a JPEG of {} x {} instead of {} x {}", shape->width, shape->height,
+                                        size.width, size.height));
+  // Even a flat image takes at least one bit for 64 pixels.
+  if (static_cast<std::size_t>(size.area()) / 512 > payload.size())
+    return Outcome::failure("a JPEG too short for its size");
   image.create(size);
   const int code = tjDecompress2(handles_->decompress, payload.data(), payload.size(), image.data, size.width,
                                  static_cast<int>(image.step[0]), size.height, TJPF_BGR,
                                  TJFLAG_STOPONWARNING | TJFLAG_LIMITSCANS);
-  if (code != 0) return fmt::format("damaged JPEG: {}", tjGetErrorStr2(handles_->decompress));
-  return {};
+  if (code != 0)
+    return Outcome::failure(fmt::format("damaged JPEG: {}", tjGetErrorStr2(handles_->decompress)));
+  return Outcome::success();
 }
 
 void JpegCodec::encode(const cv::Mat3b& image, int quality, std::vector<std::uint8_t>& payload) {

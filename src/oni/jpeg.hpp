@@ -3,10 +3,11 @@
 #include <cstdint>
 #include <memory>
 #include <span>
-#include <string>
 #include <vector>
 
 #include <opencv2/core.hpp>
+
+#include "core/outcome.hpp"
 
 namespace saccade {
 
@@ -20,11 +21,12 @@ class JpegCodec {
   JpegCodec& operator=(const JpegCodec&) = delete;
 
   /// Decodes into `image` (BGR, reused if it fits). The size and the number of components are checked before
-  /// anything is allocated. Returns why the image is bad: another size than `size`, no JPEG of 1 or 3
-  /// components, damaged or cut data (a warning of the library counts); empty = it is good.
-  std::string decode(std::span<const std::uint8_t> payload, cv::Size size, cv::Mat3b& image);
+  /// anything is allocated. Fails for another size than `size`, for anything but a JPEG of 1 or 3 components,
+  /// and for damaged or truncated data (a warning of the library counts).
+  Outcome decode(std::span<const std::uint8_t> payload, cv::Size size, cv::Mat3b& image);
 
-  /// Appends `image` (BGR) as a baseline JPEG with 4:2:0 chroma. quality: 1..100.
+  /// Appends `image` (BGR, not empty) as a baseline JPEG with 4:2:0 chroma. quality: 1..100. Throws Error
+  /// (failed) if the library fails.
   void encode(const cv::Mat3b& image, int quality, std::vector<std::uint8_t>& payload);
 
  private:

@@ -25,11 +25,11 @@ class OutputFile {
   /// Makes sure that the file can grow by `bytes` from its present size: takes blocks of the disk ahead of
   /// the end of the file, and respects the process's file-size limit. False if the disk (or quota, or limit)
   /// has no room for them.
-  bool reserve(std::uint64_t bytes);
+  [[nodiscard]] bool reserve(std::uint64_t bytes);
 
   /// Appends all of `bytes` or, if that fails, nothing: the file is cut back to where it was. False if there
   /// is no room. Throws Error (failed) for any other failure.
-  bool append(std::span<const std::uint8_t> bytes);
+  [[nodiscard]] bool append(std::span<const std::uint8_t> bytes);
 
   /// Writes over bytes that are there already. Throws Error (failed).
   void overwrite(std::uint64_t position, std::span<const std::uint8_t> bytes);

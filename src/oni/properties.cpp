@@ -41,7 +41,7 @@ OniPixelFormat default_format(OniNodeType type) {
     case OniNodeType::depth:
       return OniPixelFormat::depth_1mm;
     case OniNodeType::ir:
-      return OniPixelFormat::gray16;
+      return OniPixelFormat::grey16;
     default:
       return OniPixelFormat::rgb888;
   }
@@ -57,7 +57,7 @@ std::optional<OniPixelFormat> pixel_format(const OniNode& node, std::uint64_t po
   const auto number = node.int_property(kXnFormat, position);
   if (!number) return default_format(node.declared.type);
   if (depth) return *number == 4 ? std::optional(OniPixelFormat::depth_1mm) : std::nullopt;
-  // 1..5 are RGB24, YUV422, gray 8, gray 16 and JPEG, in the order of OpenNI2's numbers.
+  // 1..5 are RGB24, YUV422, grey 8, grey 16 and JPEG, in the order of OpenNI2's numbers.
   if (*number < 1 || *number > 5) return std::nullopt;
   return pixel_format_of(199 + *number);
 }
@@ -72,7 +72,7 @@ bool fits(OniCodec codec, OniPixelFormat format) {
     case OniCodec::z8:
       return format != OniPixelFormat::jpeg && !holds_depth(format);
     case OniCodec::jpeg:
-      return format == OniPixelFormat::rgb888 || format == OniPixelFormat::gray8;
+      return format == OniPixelFormat::rgb888 || format == OniPixelFormat::grey8;
   }
   return false;
 }

@@ -18,7 +18,7 @@ struct OniNode;
 /// Names of properties. The last ones are Saccade's own; other players pass over them.
 namespace oni_property {
 constexpr std::string_view kMode = "xnMapOutputMode";      ///< u32 width, height, frames a second
-constexpr std::string_view kXnFormat = "xnPixelFormat";    ///< 1 RGB24, 2 YUV422, 3 gray 8, 4 gray 16, 5 JPEG
+constexpr std::string_view kXnFormat = "xnPixelFormat";    ///< 1 RGB24, 2 YUV422, 3 grey 8, 4 grey 16, 5 JPEG
 constexpr std::string_view kOniFormat = "oniPixelFormat";  ///< OniPixelFormat; takes precedence
 constexpr std::string_view kMaxDepth = "xnDeviceMaxDepth";             ///< largest depth value
 constexpr std::string_view kFov = "xnFOV";                             ///< f64 horizontal, vertical, radians
@@ -51,7 +51,7 @@ struct OniFormat {
   cv::Rect crop;       ///< the part that a frame holds; the whole image where cropping is off
   double rate_hz = 0;  ///< nominal, 0 = unknown
   OniPixelFormat pixels = OniPixelFormat::depth_1mm;
-  std::string unusable;  ///< why frames cannot be decoded; empty = they can
+  std::optional<std::string> unusable;  ///< why frames cannot be decoded; absent = they can
 };
 
 /// The format that holds for what lies at `position`. Every number in the file is checked against its bound.

@@ -42,7 +42,8 @@ class OniRecordWriter {
 
   /// Appends a frame; its number is its place in the node, from 1. False, with the file unchanged, if the
   /// disk has no room for it and the closing records. Throws Error (failed) if writing fails otherwise.
-  bool write_frame(std::uint32_t node, std::uint64_t timestamp_us, std::span<const std::uint8_t> payload);
+  [[nodiscard]] bool write_frame(std::uint32_t node, std::uint64_t timestamp_us,
+                                 std::span<const std::uint8_t> payload);
 
   /// Waits until all that is written is on the disk. Throws Error (failed).
   void flush() { file_.flush(); }

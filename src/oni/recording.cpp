@@ -7,12 +7,12 @@
 namespace saccade {
 namespace {
 
-// True if some frame's payload could hold an image of the declared size. It keeps a wrong size in the file
-// from becoming the size of everything that is computed from it.
+// True if the payload of some frame could hold an image of the declared size. Without this check, a wrong
+// size in the file would become the size of everything computed from it.
 bool has_plausible_frame(const Recording& recording, const OniNode& node) {
   for (std::size_t k = 0; k < node.frames.size(); ++k) {
     const OniFormat format = recording.format(node, k);
-    if (!format.unusable.empty()) continue;
+    if (format.unusable) continue;
     const std::size_t payload = node.frames[k].payload_size;
     const auto pixels = static_cast<std::size_t>(format.crop.area());
     const std::size_t bytes = pixels * bytes_per_pixel(format.pixels);
@@ -71,33 +71,32 @@ OniFormat Recording::format(const OniNode& node, std::size_t k) const {
   return format_at(node, node.frames.at(k).payload_position);
 }
 
-std::string Recording::read_payload(const OniFrameEntry& frame) {
+Outcome Recording::read_payload(const OniFrameEntry& frame) {
   if (payload_.size() < frame.payload_size) payload_.resize(frame.payload_size);
   const std::span bytes = std::span(payload_).first(frame.payload_size);
-  return file_.read(frame.payload_position, bytes) == bytes.size() ? "" : "the file cannot be read there";
+  return file_.read(frame.payload_position, bytes) == bytes.size()
+             ? Outcome::success()
+             : Outcome::failure("the file cannot be read there");
 }
 
-std::string Recording::read_stored_depth(const OniNode& node, std::size_t k, cv::Mat1w& depth) {
+Outcome Recording::read_stored_depth(const OniNode& node, std::size_t k, cv::Mat1w& depth) {
   const OniFrameEntry& frame = node.frames.at(k);
-  std::string fault = read_payload(frame);
-  if (!fault.empty()) return fault;
+  if (const Outcome read = read_payload(frame); !read) return read;
   return decoder_.decode_depth(node.declared.codec, format(node, k),
                                std::span(payload_).first(frame.payload_size), depth);
 }
 
-std::string Recording::read_depth(const OniNode& node, std::size_t k, cv::Mat1f& depth_mm) {
-  std::string fault = read_stored_depth(node, k, stored_);
-  if (!fault.empty()) return fault;
+Outcome Recording::read_depth(const OniNode& node, std::size_t k, cv::Mat1f& depth_mm) {
+  if (const Outcome read = read_stored_depth(node, k, stored_); !read) return read;
   const std::uint64_t position = node.frames[k].payload_position;
   depth_to_mm(stored_, format_at(node, position).pixels, node.property(oni_property::kShiftToDepth, position),
               depth_mm);
-  return {};
+  return Outcome::success();
 }
 
-std::string Recording::read_colour(const OniNode& node, std::size_t k, cv::Mat3b& image) {
+Outcome Recording::read_colour(const OniNode& node, std::size_t k, cv::Mat3b& image) {
   const OniFrameEntry& frame = node.frames.at(k);
-  std::string fault = read_payload(frame);
-  if (!fault.empty()) return fault;
+  if (const Outcome read = read_payload(frame); !read) return read;
   return decoder_.decode_colour(node.declared.codec, format(node, k),
                                 std::span(payload_).first(frame.payload_size), image);
 }
@@ -108,7 +107,7 @@ std::optional<std::size_t> Recording::nearest(const OniNode& node, std::uint64_t
   const std::vector<std::uint32_t>& order =
       by_time_.at(static_cast<std::size_t>(&node - index_.nodes.data()));
   const auto frame_of = [&](std::size_t rank) { return order.empty() ? rank : std::size_t{order[rank]}; };
-  std::size_t low = 0, high = frames.size();  // the first rank that is not before the time
+  std::size_t low = 0, high = frames.size();  // binary search for the first rank at or after the time
   while (low < high) {
     const std::size_t middle = low + (high - low) / 2;
     if (frames[frame_of(middle)].timestamp_us < timestamp_us)

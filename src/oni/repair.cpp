@@ -24,7 +24,7 @@ bool is_playable(const Recording& recording, const OniNode& node) {
   if (!holds_frames(node.declared.type)) return true;
   const std::uint64_t position =
       node.frames.empty() ? recording.index().file_size : node.frames.front().payload_position;
-  return format_at(node, position).unusable.empty();
+  return !format_at(node, position).unusable;
 }
 
 class Repair {
@@ -143,11 +143,11 @@ class Repair {
     // The index and this walk see the same records in the same order, but the index may hold fewer frames.
     if (k >= node.frames.size() || node.frames[k].payload_position != record.payload_position()) return;
     const OniFormat format = recording_.format(node, k);
-    const std::string fault = node.declared.type == OniNodeType::depth
-                                  ? recording_.read_stored_depth(node, k, depth_)
-                                  : recording_.read_colour(node, k, colour_);
+    const Outcome read_frame = node.declared.type == OniNodeType::depth
+                                   ? recording_.read_stored_depth(node, k, depth_)
+                                   : recording_.read_colour(node, k, colour_);
     ++k;
-    if (!fault.empty() && format.pixels != OniPixelFormat::jpeg) {
+    if (!read_frame && format.pixels != OniPixelFormat::jpeg) {
       ++report_.bad_frames;
       return;
     }

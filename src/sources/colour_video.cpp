@@ -14,7 +14,7 @@ ColourVideo::ColourVideo(std::string name, int backend, double rate_hz)
   quieten_video_libraries();
   open();
   if (ahead_.empty())
-    throw unreadable("no image in this video can be read", name_, "is it whole, and a video at all?");
+    throw unreadable("no image in this video can be read", name_, "the file may be truncated or not a video");
   const double rate = capture_.get(cv::CAP_PROP_FPS);
   if (backend_ != cv::CAP_IMAGES && std::isfinite(rate) && rate > 0) rate_hz_ = rate;
 }
@@ -35,8 +35,8 @@ void ColourVideo::advance() {
     return;
   }
   const double nominal_us = static_cast<double>(count_++) * 1e6 / rate_hz_;
-  const double told_us = backend_ == cv::CAP_IMAGES ? 0 : 1000 * capture_.get(cv::CAP_PROP_POS_MSEC);
-  ahead_us_ = std::llround(told_us > 0 ? told_us : nominal_us);
+  const double container_us = backend_ == cv::CAP_IMAGES ? 0 : 1000 * capture_.get(cv::CAP_PROP_POS_MSEC);
+  ahead_us_ = std::llround(container_us > 0 ? container_us : nominal_us);
 }
 
 bool ColourVideo::read(cv::Mat3b& image, std::int64_t& time_us) {

@@ -18,14 +18,14 @@ class ColourVideo {
   double rate_hz() const { return rate_hz_; }
 
   /// Reads the next image (BGR) into `image`. False at the end.
-  bool read(cv::Mat3b& image, std::int64_t& time_us);
+  [[nodiscard]] bool read(cv::Mat3b& image, std::int64_t& time_us);
 
-  /// The image nearest to `time_us`, at most `tolerance_us` away; false if there is none. The times asked for
-  /// may also go back, which reads the video anew.
-  bool nearest(std::int64_t time_us, std::int64_t tolerance_us, cv::Mat3b& image);
+  /// The image nearest to `time_us`, at most `tolerance_us` away; false if there is none. `time_us` may also
+  /// decrease, which reads the video again from its start.
+  [[nodiscard]] bool nearest(std::int64_t time_us, std::int64_t tolerance_us, cv::Mat3b& image);
 
-  /// Leaves an image out. False at the end.
-  bool skip();
+  /// Skips an image. False at the end.
+  [[nodiscard]] bool skip();
 
  private:
   void open();
@@ -36,7 +36,7 @@ class ColourVideo {
   double rate_hz_;
   cv::VideoCapture capture_;
   std::int64_t count_ = 0;  // images read
-  // What nearest() chooses between; ahead_ is the later one, empty at the end.
+  // nearest() chooses between these two; ahead_ is the later one, empty at the end.
   cv::Mat now_, ahead_;
   std::int64_t now_us_ = 0, ahead_us_ = 0;
 };

@@ -24,10 +24,10 @@ constexpr const char* kExactRoutes =
     "depth must be FFV1 gray16le in Matroska, 16-bit PNGs in Matroska, or rawvideo gray16le in .nut";
 
 constexpr int code(char a, char b, char c, char d) { return a | b << 8 | c << 16 | d << 24; }
-constexpr int kGray16Little = code('Y', '1', 0, 16), kGray16Big = code(16, 0, '1', 'Y');
+constexpr int kGrey16Little = code('Y', '1', 0, 16), kGrey16Big = code(16, 0, '1', 'Y');
 constexpr int kFfv1 = code('F', 'F', 'V', '1');
 
-// A file's packets as they are, not decoded.
+// A file's packets, not decoded.
 cv::VideoCapture open_packets(const fs::path& path) {
   return cv::VideoCapture(path.string(), cv::CAP_FFMPEG, {cv::CAP_PROP_FORMAT, -1});
 }
@@ -49,7 +49,7 @@ int upper_case(int fourcc) {
   return fourcc;
 }
 
-// Depth from an OpenCV capture, in a form that derived classes turn into an image.
+// Depth from an OpenCV capture, in a form that derived classes decode.
 class CaptureVideo : public DepthVideo {
  public:
   bool read(cv::Mat1w& depth, std::int64_t& time_us) final {
@@ -89,7 +89,7 @@ class PngPackets final : public CaptureVideo {
  private:
   void decode(cv::Mat1w& depth) override {
     const cv::Mat image = decode_png(bytes_of(buffer_));
-    if (image.type() != CV_16UC1) throw std::runtime_error("not a 16-bit gray PNG");
+    if (image.type() != CV_16UC1) throw std::runtime_error("not a 16-bit grey PNG");
     image.copyTo(depth);
   }
 };
@@ -111,13 +111,13 @@ class RawPackets final : public CaptureVideo {
 
 class DecodedFrames final : public CaptureVideo {
  public:
-  // `clock`: of the same frames, for their times; those of a GStreamer pipeline run ahead of what was read.
+  // `clock` reads the same frames, for their times: those of a GStreamer pipeline run ahead.
   DecodedFrames(cv::VideoCapture capture, cv::Size size, cv::VideoCapture clock = {})
       : CaptureVideo(std::move(capture), size), clock_(std::move(clock)) {}
 
  private:
   void decode(cv::Mat1w& depth) override {
-    if (buffer_.type() != CV_16UC1) throw std::runtime_error("not 16-bit gray");
+    if (buffer_.type() != CV_16UC1) throw std::runtime_error("not 16-bit grey");
     buffer_.copyTo(depth);
   }
   std::int64_t time_of(std::int64_t index) override {
@@ -127,7 +127,7 @@ class DecodedFrames final : public CaptureVideo {
   }
 
   cv::VideoCapture clock_;
-  std::int64_t clocked_ = 0;  // frames of it that were read
+  std::int64_t clocked_ = 0;  // frames read from clock_
 };
 
 std::unique_ptr<DepthVideo> open_ffv1(const fs::path& path, cv::Size size) {
@@ -142,7 +142,7 @@ std::unique_ptr<DepthVideo> open_ffv1(const fs::path& path, cv::Size size) {
                            cv::CAP_GSTREAMER);
   if (!capture.isOpened())
     throw unreadable(
-        "this FFV1 video cannot be read as 16-bit gray", path.string(),
+        "this FFV1 video cannot be read as 16-bit grey", path.string(),
         "GStreamer does it with the packages gstreamer1.0-plugins-good and gstreamer1.0-libav, from "
         "Matroska");
   return std::make_unique<DecodedFrames>(std::move(capture), size,
@@ -164,7 +164,7 @@ std::unique_ptr<DepthVideo> open_depth_video(const fs::path& path) {
   cv::VideoCapture packets = open_packets(path);
   cv::Mat first;
   if (!packets.isOpened() || !packets.read(first))
-    throw unreadable("no video that can be read", path.string(), "is it whole, and a video at all?");
+    throw unreadable("no video that can be read", path.string(), "the file may be truncated or not a video");
   const cv::Size size(static_cast<int>(packets.get(cv::CAP_PROP_FRAME_WIDTH)),
                       static_cast<int>(packets.get(cv::CAP_PROP_FRAME_HEIGHT)));
   const int codec = upper_case(as_code(packets.get(cv::CAP_PROP_FOURCC)));
@@ -173,14 +173,14 @@ std::unique_ptr<DepthVideo> open_depth_video(const fs::path& path) {
     throw unreadable(fmt::format("images of {}x{} are too large", size.width, size.height), path.string(),
                      fmt::format("at most {} pixels a side", kLargestSide));
   if (is_png(bytes_of(first))) {
-    if (pixels == kGray16Big || pixels == kGray16Little)
+    if (pixels == kGrey16Big || pixels == kGrey16Little)
       return std::make_unique<PngPackets>(open_packets(path), size);
-  } else if (codec == kGray16Little) {
+  } else if (codec == kGrey16Little) {
     return std::make_unique<RawPackets>(open_packets(path), size);
-  } else if (codec == kFfv1 && pixels == kGray16Little) {
+  } else if (codec == kFfv1 && pixels == kGrey16Little) {
     return open_ffv1(path, size);
-  } else if (pixels == kGray16Little || pixels == kGray16Big) {
-    throw unreadable("16-bit gray of a codec that would be flattened to 8 bits", path.string(), kExactRoutes);
+  } else if (pixels == kGrey16Little || pixels == kGrey16Big) {
+    throw unreadable("16-bit grey in a codec that would be flattened to 8 bits", path.string(), kExactRoutes);
   }
   if (path.stem().string().ends_with("_depth"))
     throw unreadable("this depth video has 8 bits a pixel, or would be flattened to 8", path.string(),
@@ -196,7 +196,7 @@ std::unique_ptr<DepthVideo> open_depth_images(const std::string& pattern) {
     throw unreadable("no images of that pattern", pattern,
                      "e.g. depth_%04d.png for depth_0000.png, depth_0001.png, ..");
   if (first.type() != CV_16UC1)
-    throw unreadable("the images are not 16-bit gray depth", pattern, "16-bit gray PNGs in mm are expected");
+    throw unreadable("the images are not 16-bit grey depth", pattern, "16-bit grey PNGs in mm are expected");
   return std::make_unique<DecodedFrames>(cv::VideoCapture(pattern, cv::CAP_IMAGES), first.size());
 }
 

@@ -4,14 +4,16 @@
 #include <map>
 #include <optional>
 #include <stdexcept>
+#include <utility>
 
 #include <fmt/format.h>
 #include <opencv2/imgcodecs.hpp>
 
 #include "core/error.hpp"
 #include "core/file.hpp"
+#include "core/outcome.hpp"
 #include "core/png.hpp"
-#include "sources/folder_listing.hpp"
+#include "sources/meta_json.hpp"
 #include "sources/pcd.hpp"
 
 namespace saccade {
@@ -20,20 +22,21 @@ namespace {
 
 constexpr int kSmallestSide = 8;
 
-// Why a depth image of this kind cannot be used; empty if it can.
-std::string depth_problem(const PngHeader& header) {
+// Whether a depth image of this form can be used.
+Outcome usable(const PngHeader& header) {
   const auto [width, height] = header.size;
-  if (header.bits != 16 || header.channels != "gray")
-    return fmt::format("{}-bit {} is not 16-bit gray depth", header.bits, header.channels);
+  if (header.bits != 16 || header.channels != "grey")
+    return Outcome::failure(fmt::format("{}-bit {} is not 16-bit grey depth", header.bits, header.channels));
   if (width < kSmallestSide || height < kSmallestSide)
-    return fmt::format("{}x{} is smaller than {} pixels a side", width, height, kSmallestSide);
-  return "";
+    return Outcome::failure(
+        fmt::format("{}x{} is smaller than {} pixels a side", width, height, kSmallestSide));
+  return Outcome::success();
 }
 
-bool is_cloud(const fs::path& path) { return path.extension() == ".pcd" || path.extension() == ".PCD"; }
+bool is_cloud(const fs::path& path) { return ending_of(path) == ".pcd"; }
 
-// Labels of an image in colour: black is no object, the other colours are 1, 2, .. in the order of their
-// values.
+// Labels of a coloured image: black is no object; the other colours, in the order of their values, are
+// 1, 2, ..
 cv::Mat1w labels_of_colours(const cv::Mat3b& image) {
   constexpr std::size_t kMost = 65535;
   std::map<int, std::uint16_t> labels;
@@ -52,16 +55,17 @@ cv::Mat1w labels_of_colours(const cv::Mat3b& image) {
 
 std::string plain(cv::Size size) { return fmt::format("{}x{}", size.width, size.height); }
 
-class FolderSource : public FrameSource {
+class FolderSource final : public FrameSource {
  public:
-  explicit FolderSource(const fs::path& folder) : listing_(list_folder(folder)) {
-    info_.uri = folder.string();
-    info_.kind = listing_.kind;
-    info_.size = first_size(folder);
+  FolderSource(const SourceInput& input, std::string_view kind, FolderListing listing)
+      : listing_(std::move(listing)) {
+    info_.uri = input.uri;
+    info_.kind = kind;
+    info_.size = first_size();
     info_.frame_count = static_cast<std::int64_t>(listing_.entries.size());
     info_.rate_hz = listing_.rate_hz;
     info_.notes = listing_.notes;
-    auto camera = read_meta(folder);
+    auto camera = read_meta(input.path);
     if (!camera) camera = camera_of_cloud();
     info_.intrinsics = camera ? *camera : Intrinsics::guess_for(info_.size);
   }
@@ -91,24 +95,24 @@ class FolderSource : public FrameSource {
   }
 
  private:
-  // Frames are all of one size: that of the first whose header makes sense.
-  cv::Size first_size(const fs::path& folder) const {
-    std::string first_problem;
-    for (const FolderEntry& entry : listing_.entries) {
-      std::string problem;
-      try {
-        if (is_cloud(entry.depth)) return read_pcd_size(read_file(entry.depth));
-        const PngHeader header = read_png_header(read_file(entry.depth));
-        problem = depth_problem(header);
-        if (problem.empty()) return header.size;
+  // The size of a depth image or cloud. Throws std::runtime_error if it cannot be used.
+  static cv::Size depth_size(const fs::path& path, std::span<const std::uint8_t> bytes) {
+    if (is_cloud(path)) return read_pcd_size(bytes);
+    const PngHeader header = read_png_header(bytes);
+    if (const Outcome outcome = usable(header); !outcome) throw std::runtime_error(outcome.reason());
+    return header.size;
+  }
+
+  // All frames have one size: that of the first whose header makes sense.
+  cv::Size first_size() const {
+    std::optional<std::string> first_problem;
+    for (const FolderEntry& entry : listing_.entries) try {
+        return depth_size(entry.depth, read_file(entry.depth));
       } catch (const std::runtime_error& error) {
-        problem = error.what();
+        if (!first_problem) first_problem = entry.depth.filename().string() + ": " + error.what();
       }
-      if (first_problem.empty())
-        first_problem = fmt::format("{}: {}", entry.depth.filename().string(), problem);
-    }
-    throw unreadable("no usable depth image; " + first_problem, folder.string(),
-                     "depth must be 16-bit gray PNG in mm or an organised PCD, 8 to 8192 pixels a side");
+    throw unreadable("no usable depth image; " + first_problem.value_or(""), info_.uri,
+                     "depth must be 16-bit grey PNG in mm or an organised PCD, 8 to 8192 pixels a side");
   }
 
   std::optional<Intrinsics> camera_of_cloud() {
@@ -121,23 +125,15 @@ class FolderSource : public FrameSource {
     }
   }
 
-  void check_depth_size(cv::Size size) const {
-    if (size != info_.size)
-      throw std::runtime_error(fmt::format("{}, but the first frame is {}", plain(size), plain(info_.size)));
-  }
-
   void read_depth(const fs::path& path, Frame& frame) const {
     const auto bytes = read_file(path);
-    if (is_cloud(path)) {
-      check_depth_size(read_pcd_size(bytes));
+    const cv::Size size = depth_size(path, bytes);
+    if (size != info_.size)
+      throw std::runtime_error(fmt::format("{}, but the first frame is {}", plain(size), plain(info_.size)));
+    if (is_cloud(path))
       frame.depth_mm = read_pcd(bytes).depth_mm;
-      return;
-    }
-    const PngHeader header = read_png_header(bytes);
-    if (const std::string problem = depth_problem(header); !problem.empty())
-      throw std::runtime_error(problem);
-    check_depth_size(header.size);
-    decode_png(bytes).convertTo(frame.depth_mm, CV_32F, listing_.mm_per_unit);
+    else
+      decode_png(bytes).convertTo(frame.depth_mm, CV_32F, listing_.mm_per_unit);
   }
 
   void check_size(cv::Size size) const {
@@ -150,7 +146,7 @@ class FolderSource : public FrameSource {
     if (path.empty()) return;
     const auto bytes = read_file(path);
     cv::Mat image;
-    if (path.extension() == ".png") {
+    if (ending_of(path) == ".png") {
       check_size(read_png_header(bytes).size);
       image = decode_png(bytes);
       if (image.depth() == CV_16U) image.convertTo(image, CV_8U, 1.0 / 256);
@@ -169,7 +165,7 @@ class FolderSource : public FrameSource {
     const cv::Mat image = decode_png(read_file(path));
     check_size(image.size());
     if (image.channels() != 1) {
-      if (info_.kind != "osd") throw std::runtime_error("labels must be gray or palette");
+      if (!listing_.colours_are_labels) throw std::runtime_error("labels must be grey or palette");
       frame.truth.labels = labels_of_colours(image);
       return;
     }
@@ -181,7 +177,7 @@ class FolderSource : public FrameSource {
     if (path.empty()) return;
     const cv::Mat image = decode_png(read_file(path));
     check_size(image.size());
-    if (image.channels() != 1) throw std::runtime_error("classes must be gray or palette");
+    if (image.channels() != 1) throw std::runtime_error("classes must be grey or palette");
     image.convertTo(frame.truth.classes, CV_16U);
   }
 
@@ -192,8 +188,9 @@ class FolderSource : public FrameSource {
 
 }  // namespace
 
-std::unique_ptr<FrameSource> open_folder(const fs::path& folder) {
-  return std::make_unique<FolderSource>(folder);
+std::unique_ptr<FrameSource> open_folder(const SourceInput& input, std::string_view kind,
+                                         FolderListing listing) {
+  return std::make_unique<FolderSource>(input, kind, std::move(listing));
 }
 
 }  // namespace saccade

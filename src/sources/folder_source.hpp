@@ -1,23 +1,40 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "core/frame_source.hpp"
+#include "sources/source_kind.hpp"
 
 namespace saccade {
 
-/// Opens a folder of images (SPEC section 7):
-/// - `NNNN_depth.png` (16-bit gray, mm) with optional `NNNN_rgb.png|jpg`, `NNNN_label.png`,
-///   `NNNN_class.png` (8 or 16 bits, 0 = void) and `meta.json` (fx fy cx cy in pixels), in the order of
-///   their numbers; 30 frames a second are assumed for their times;
-/// - a TUM RGB-D folder: depth.txt and optionally rgb.txt list times and files, depth has 5000 units a metre;
-///   a colour image belongs to the depth image that is nearest in time, at most 20 ms away;
-/// - the Object Segmentation Database (list_osd()); the camera is that of meta.json, else the one that fits
-///   the points of a cloud, else a guess. In an annotation in colour each colour but black is an object.
-/// A frame that cannot be used is rejected with the reason (read()); gaps in the numbers are reported in
-/// info().notes. Throws Error (unreadable): no folder, no depth images, none that can be read, a broken
-/// meta.json.
-std::unique_ptr<FrameSource> open_folder(const std::filesystem::path& folder);
+/// One frame of a folder: its files, not yet opened.
+struct FolderEntry {
+  std::string name;                            ///< "0007", or the time stamp in a TUM folder
+  std::int64_t timestamp_us = 0;               ///< from the first frame
+  std::filesystem::path depth, colour, label;  ///< colour and label may be empty
+  std::filesystem::path classes{};             ///< may be empty
+};
+
+/// What a layout of folders finds: the frames in their order.
+struct FolderListing {
+  std::vector<FolderEntry> entries;  ///< not empty
+  double mm_per_unit = 1;            ///< of depth images
+  double rate_hz = 30;
+  std::vector<std::string> notes{};  ///< as in SourceInfo
+  std::filesystem::path cloud{};     ///< an organised point cloud, which shows the camera; may be empty
+  bool colours_are_labels = false;   ///< each colour but black of a label image is an object
+};
+
+/// Opens the frames of `listing`, found in the folder `input`, as a source of kind `kind`. Depth is a 16-bit
+/// grey PNG, or z of an organised PCD; label and class images are grey or palette. Every frame has the size
+/// of the first that is usable. The camera is that of meta.json (read_meta()), else the one that fits the
+/// points of the cloud, else a guess. A frame that cannot be used is rejected with the reason. Throws Error
+/// (unreadable): no depth image is usable, meta.json is broken.
+std::unique_ptr<FrameSource> open_folder(const SourceInput& input, std::string_view kind,
+                                         FolderListing listing);
 
 }  // namespace saccade

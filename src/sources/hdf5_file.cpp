@@ -14,10 +14,11 @@ std::optional<Hdf5Images> Hdf5Images::open(const Hdf5Id& file, const std::string
   Hdf5Images images;
   images.name_ = name;
   images.data_ = {H5Dopen2(file.get(), name.c_str(), H5P_DEFAULT), H5Dclose};
-  if (!images.data_.valid()) throw std::runtime_error(name + " is no array");
+  if (!images.data_.valid()) throw std::runtime_error(name + " is not an array");
   const Hdf5Id type(H5Dget_type(images.data_.get()), H5Tclose);
   const H5T_class_t kind = H5Tget_class(type.get());
-  if (kind != H5T_INTEGER && kind != H5T_FLOAT) throw std::runtime_error(name + " is no array of numbers");
+  if (kind != H5T_INTEGER && kind != H5T_FLOAT)
+    throw std::runtime_error(name + " is not an array of numbers");
   const Hdf5Id space(H5Dget_space(images.data_.get()), H5Sclose);
   const int axes = H5Sget_simple_extent_ndims(space.get());
   if (axes < 0) throw std::runtime_error(name + " has no shape");
@@ -34,7 +35,7 @@ void Hdf5Images::read(hsize_t index, hid_t type, void* target) const {
   const Hdf5Id to(H5Screate_simple(static_cast<int>(count.size()), count.data(), nullptr), H5Sclose);
   if (H5Sselect_hyperslab(from.get(), H5S_SELECT_SET, begin.data(), nullptr, count.data(), nullptr) < 0 ||
       H5Dread(data_.get(), type, to.get(), from.get(), H5P_DEFAULT, target) < 0)
-    throw std::runtime_error(name_ + " is damaged there");
+    throw std::runtime_error(name_ + " is damaged here");
 }
 
 }  // namespace saccade

@@ -10,7 +10,7 @@
 
 namespace saccade {
 
-/// An identifier of libhdf5, closed at the end of its life. Negative = none.
+/// Owns an identifier of libhdf5 and closes it. Negative = none.
 class Hdf5Id {
  public:
   Hdf5Id() = default;
@@ -36,7 +36,7 @@ class Hdf5Id {
 /// A numeric array of a file whose first axis counts images.
 class Hdf5Images {
  public:
-  /// std::nullopt if the file has no such array. Throws std::runtime_error if it is no array of numbers.
+  /// std::nullopt if the file has no such array. Throws std::runtime_error if it is not an array of numbers.
   static std::optional<Hdf5Images> open(const Hdf5Id& file, const std::string& name);
 
   const std::vector<hsize_t>& shape() const { return shape_; }
@@ -51,8 +51,8 @@ class Hdf5Images {
   std::vector<hsize_t> shape_;
 };
 
-/// Opens a file for reading; libhdf5's own messages on standard error are switched off. An invalid identifier
-/// if it is none of HDF5.
+/// Opens a file for reading and switches off libhdf5's own messages on standard error. An invalid identifier
+/// if it is not an HDF5 file.
 Hdf5Id open_hdf5(const std::filesystem::path& path);
 
 }  // namespace saccade

@@ -7,13 +7,14 @@
 #include <opencv2/imgproc.hpp>
 
 #include "core/error.hpp"
+#include "sources/source_kind.hpp"
 
 namespace saccade {
 namespace {
 
 constexpr double kDefaultRateHz = 30;
-constexpr std::uint64_t kJump_us = 10'000'000;  // a larger step of time is told
-constexpr std::size_t kMostNotes = 5;           // problems that are told one by one
+constexpr std::uint64_t kJump_us = 10'000'000;  // a larger step of time is a note
+constexpr std::size_t kMostNotes = 5;           // of problems, one by one
 
 const OniNode& need_depth(const Recording& recording) {
   const OniNode* depth = main_depth(recording);
@@ -25,22 +26,22 @@ const OniNode& need_depth(const Recording& recording) {
     const OniFormat format = format_at(node, std::numeric_limits<std::uint64_t>::max());
     streams += fmt::format("{}{} with {} frames", streams.empty() ? "" : ", ", to_string(node.declared.type),
                            node.frames.size());
-    if (!format.unusable.empty()) streams += fmt::format(", {}", format.unusable);
+    if (format.unusable) streams += fmt::format(", {}", *format.unusable);
   }
   throw unreadable("no depth frames in this recording", recording.file().name(),
                    streams.empty() ? "it holds no streams" : fmt::format("it holds {}", streams));
 }
 
-// The format of the stream's first frame that can be decoded at all; there is one.
+// The format of the stream's first frame that can be decoded.
 OniFormat first_format(const Recording& recording, const OniNode& node) {
   for (std::size_t k = 0; k < node.frames.size(); ++k) {
     OniFormat format = recording.format(node, k);
-    if (format.unusable.empty()) return format;
+    if (!format.unusable) return format;
   }
   return {};
 }
 
-// Nearest neighbours of two whole streams are at most half a period apart; the rest is for jitter.
+// Nearest neighbours of two complete streams are at most half a period apart; the rest is for jitter.
 std::uint64_t tolerance_us(double rate_hz) {
   return static_cast<std::uint64_t>(0.75e6 / (rate_hz > 0 ? rate_hz : kDefaultRateHz));
 }
@@ -82,12 +83,12 @@ void OniSource::note_colour() {
   const OniFormat format = first_format(recording_, *colour_);
   pairing_tolerance_us_ = std::max(pairing_tolerance_us_, tolerance_us(format.rate_hz));
   if (colour_->declared.type == OniNodeType::ir)
-    info_.notes.push_back("no colour stream; the infrared picture is shown as grey");
+    info_.notes.push_back("no colour stream; the infrared image is shown as grey");
   if (format.size != info_.size)
     info_.notes.push_back(fmt::format("colour of {} x {} is scaled to the depth's {} x {}", format.size.width,
                                       format.size.height, info_.size.width, info_.size.height));
   if (depth_->int_property(oni_property::kRegistered, recording_.index().file_size).value_or(0) == 0)
-    info_.notes.push_back("the recording does not say whether colour lies on the depth; it is taken to");
+    info_.notes.push_back("the recording does not say whether colour is registered to depth; assuming it is");
 }
 
 void OniSource::note_times() {
@@ -105,10 +106,10 @@ void OniSource::note_times() {
 
 void OniSource::note_problems() {
   const auto& problems = recording_.index().problems;
-  std::size_t told = 0;
+  std::size_t shown = 0;
   for (const OniProblem& problem : problems.list()) {
     if (problem.severity != OniSeverity::error) continue;
-    if (told++ == kMostNotes) break;
+    if (shown++ == kMostNotes) break;
     info_.notes.push_back(fmt::format("at byte {}: {}", problem.position, problem.meaning));
   }
   const std::size_t errors = problems.count(OniSeverity::error);
@@ -130,27 +131,30 @@ ReadResult OniSource::read(Frame& frame, std::chrono::milliseconds) {
   frame.name.clear();
   frame.truth = {};
   frame.intrinsics = info_.intrinsics;
-  if (const OniFormat format = recording_.format(*depth_, k);
-      format.unusable.empty() && format.size != info_.size)
+  if (const OniFormat format = recording_.format(*depth_, k); !format.unusable && format.size != info_.size)
     return {ReadStatus::rejected, fmt::format("frame {}: {} x {} instead of {} x {}", k, format.size.width,
                                               format.size.height, info_.size.width, info_.size.height)};
-  const std::string fault = recording_.read_depth(*depth_, k, frame.depth_mm);
-  if (!fault.empty())
-    return {ReadStatus::rejected, fmt::format("frame {} at byte {}: {}", k, entry.payload_position, fault)};
-  const std::string no_colour = colour_ == nullptr ? "" : read_colour(entry, frame.colour);
-  if (colour_ == nullptr || !no_colour.empty()) frame.colour.release();
-  return {ReadStatus::frame, no_colour};
+  if (const Outcome depth = recording_.read_depth(*depth_, k, frame.depth_mm); !depth)
+    return {ReadStatus::rejected,
+            fmt::format("frame {} at byte {}: {}", k, entry.payload_position, depth.reason())};
+  if (colour_ == nullptr) {
+    frame.colour.release();
+    return {ReadStatus::frame, {}};
+  }
+  const Outcome colour = read_colour(entry, frame.colour);
+  if (!colour) frame.colour.release();
+  return {ReadStatus::frame, colour.reason()};
 }
 
-// Copies the picture that goes with a depth frame into `colour`; returns why there is none.
-std::string OniSource::read_colour(const OniFrameEntry& depth_frame, cv::Mat3b& colour) {
+// Copies the colour image that belongs to a depth frame into `colour`, in the depth's size.
+Outcome OniSource::read_colour(const OniFrameEntry& depth_frame, cv::Mat3b& colour) {
   const std::size_t k = recording_.nearest(*colour_, depth_frame.timestamp_us).value();
   if (time_between(colour_->frames[k].timestamp_us, depth_frame.timestamp_us) > pairing_tolerance_us_)
-    return "no colour of that time";
+    return Outcome::failure("no colour of that time");
   if (shown_colour_ != k) {
     shown_colour_.reset();
-    const std::string fault = recording_.read_colour(*colour_, k, colour_image_);
-    if (!fault.empty()) return fmt::format("colour frame {}: {}", k, fault);
+    if (const Outcome read = recording_.read_colour(*colour_, k, colour_image_); !read)
+      return Outcome::failure(fmt::format("colour frame {}: {}", k, read.reason()));
     shown_colour_ = k;
   }
   const cv::Size size = info_.size;
@@ -160,7 +164,23 @@ std::string OniSource::read_colour(const OniFrameEntry& depth_frame, cv::Mat3b& 
     cv::resize(
         colour_image_, colour, size, 0, 0,
         colour_image_.total() > static_cast<std::size_t>(size.area()) ? cv::INTER_AREA : cv::INTER_LINEAR);
-  return {};
+  return Outcome::success();
 }
+
+namespace {
+constexpr std::string_view kEndings[] = {".oni"};
+}
+
+extern const SourceKind kOniKind = {
+    .name = "oni",
+    .written = "FILE.oni",
+    .help = "a recording of OpenNI 1.x or OpenNI2, also a truncated or damaged one",
+    .recognised_by = "the ending, or the first bytes NI10",
+    .endings = kEndings,
+    .recognises = [](const SourceInput& input) { return input.head.starts_with("NI10"); },
+    .open = [](const SourceInput& input, const SensorSettings&) -> std::unique_ptr<FrameSource> {
+      return std::make_unique<OniSource>(input.path);
+    },
+};
 
 }  // namespace saccade

@@ -5,23 +5,25 @@
 #include <optional>
 
 #include "core/frame_source.hpp"
+#include "core/outcome.hpp"
 #include "oni/recording.hpp"
 
 namespace saccade {
 
-/// Frames of an .oni recording, by Saccade's own reader. Each depth frame of the first depth stream is a
-/// frame; a damaged one is `rejected`, and the next may be good.
+/// Frames of an .oni recording, by Saccade's own reader. Each frame of the first depth stream is a frame; a
+/// damaged one is `rejected`, and the next may be good.
 ///
 /// Colour is the frame of the first image stream (or, where there is none, of the infrared stream as grey)
-/// whose time is nearest to the depth's, at most one nominal frame period of the slower stream away (33.3 ms
-/// where the file names no rate); beyond that, or where it is damaged, the frame has no colour, and
-/// ReadResult::reason says why. Colour of another size is scaled to the depth's size, which is exact only for
-/// cameras that see the same field of view; info().notes tells. Pixels left out by cropping have no reading.
+/// that is nearest to the depth in time, at most 3/4 of a nominal frame period of the slower stream away (25
+/// ms at 30 Hz, which also holds where the file names no rate); beyond that, or where it is damaged, the
+/// frame has no colour, and ReadResult::reason says why. Colour of another size is scaled to the depth's,
+/// which is exact only for cameras with one field of view; info().notes says so. Pixels outside of a cropped
+/// image have no reading.
 ///
 /// Timestamps are those of the file. seek() takes constant time.
 class OniSource final : public FrameSource {
  public:
-  /// Throws Error (unreadable) if the file is no recording or holds no depth frame that could be decoded.
+  /// Throws Error (unreadable) if the file is no recording or holds no depth frame that can be decoded.
   explicit OniSource(const std::filesystem::path& path);
 
   const SourceInfo& info() const override { return info_; }
@@ -33,7 +35,7 @@ class OniSource final : public FrameSource {
   void note_colour();
   void note_times();
   void note_problems();
-  std::string read_colour(const OniFrameEntry& depth_frame, cv::Mat3b& colour);
+  Outcome read_colour(const OniFrameEntry& depth_frame, cv::Mat3b& colour);
 
   Recording recording_;
   const OniNode* depth_ = nullptr;

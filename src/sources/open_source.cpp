@@ -1,34 +1,82 @@
 #include "sources/open_source.hpp"
 
-#include <filesystem>
+#include <algorithm>
+#include <vector>
+
+#include <fmt/format.h>
 
 #include "core/error.hpp"
-#include "drivers/openni2/openni2_source.hpp"
-#include "sources/folder_source.hpp"
-#include "sources/nyu_source.hpp"
-#include "sources/oni_source.hpp"
-#include "sources/synthetic_source.hpp"
-#include "sources/video_source.hpp"
+#include "sources/source_kind.hpp"
 
 namespace saccade {
+namespace fs = std::filesystem;
+namespace {
+
+// A field of all kinds that `choose` takes, each text once.
+template <typename Choose>
+std::string join(std::string_view SourceKind::*field, Choose choose) {
+  std::vector<std::string_view> texts;
+  for (const SourceKind* kind : source_kinds())
+    if (choose(*kind) && std::ranges::count(texts, kind->*field) == 0) texts.push_back(kind->*field);
+  return fmt::format("{}", fmt::join(texts, ", "));
+}
+
+std::string known_endings() {
+  std::vector<std::string_view> endings;
+  for (const SourceKind* kind : source_kinds())
+    endings.insert(endings.end(), kind->endings.begin(), kind->endings.end());
+  return fmt::format("{}", fmt::join(endings, " "));
+}
+
+// The error for an input that no kind recognises. Throws std::filesystem::filesystem_error for a folder that
+// cannot be listed.
+Error not_recognised(const SourceInput& input) {
+  switch (input.type) {
+    case SourceInput::Type::folder:
+      fs::directory_iterator(input.path);  // throws if the folder cannot be listed
+      return unreadable("no frames in the folder", input.uri,
+                        "expected " + join(&SourceKind::recognised_by,
+                                           [](const SourceKind& kind) { return kind.written == "FOLDER"; }));
+    case SourceInput::Type::file:
+      return unreadable("not a kind of file that can be read", input.uri,
+                        "known endings: " + known_endings());
+    case SourceInput::Type::absent:
+      break;
+  }
+  return unreadable("no such source", input.uri,
+                    has_source_ending(input.path) ? "check the path" : "expected " + source_forms());
+}
+
+}  // namespace
 
 std::unique_ptr<FrameSource> open_source(const std::string& uri, const SensorSettings& sensor) {
-  if (uri == "openni2" || uri.starts_with("openni2:")) return std::make_unique<OpenNi2Source>(uri, sensor);
-  if (uri.starts_with("synthetic:")) return std::make_unique<SyntheticSource>(uri);
-  if (uri.starts_with("v4l2:")) return open_webcam(uri);
-  if (is_image_pattern(uri)) return open_image_sequence(uri);
-  if (std::filesystem::is_directory(uri)) return open_folder(uri);
-  if (std::filesystem::path(uri).extension() == ".oni") return std::make_unique<OniSource>(uri);
-  if (std::filesystem::exists(uri) && std::filesystem::path(uri).extension() == ".mat") return open_nyu(uri);
-  if (std::filesystem::exists(uri) && is_video_name(uri)) return open_video(uri);
-  if (std::filesystem::exists(uri))
-    throw unreadable(
-        "not a kind of file that can be read", uri,
-        "a folder of images, an .oni recording, a video or the .mat of NYU Depth V2 is expected");
-  throw unreadable(
-      "no such source", uri,
-      "openni2, a folder of images, FILE.oni, FILE.mkv, FILE.mat, depth_%04d.png, v4l2:DEVICE or "
-      "synthetic:NAME");
+  const SourceInput input(uri);
+  try {
+    const SourceKind* kind = kind_of(input);
+    if (kind == nullptr) throw not_recognised(input);
+    return kind->open(input, sensor);
+  } catch (const fs::filesystem_error& error) {
+    throw unreadable("cannot list the folder: " + error.code().message(), error.path1().string(),
+                     "check its permissions");
+  }
+}
+
+bool has_source_ending(const fs::path& file) {
+  const std::string ending = ending_of(file);
+  return std::ranges::any_of(
+      source_kinds(), [&](const SourceKind* kind) { return std::ranges::count(kind->endings, ending) > 0; });
+}
+
+std::string source_forms() {
+  return join(&SourceKind::written, [](const SourceKind&) { return true; });
+}
+
+std::string source_help() {
+  std::string text = "Sources:";
+  for (const SourceKind* kind : source_kinds())
+    text +=
+        fmt::format("\n  {:<29} {}{}", kind->written, kind->help, kind->built ? "" : " (not in this build)");
+  return text;
 }
 
 }  // namespace saccade

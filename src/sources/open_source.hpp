@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <memory>
 #include <string>
 
@@ -8,9 +9,18 @@
 
 namespace saccade {
 
-/// Opens what a user names SOURCE on the command line (SPEC section 7). Throws Error (usage) for a kind of
-/// source that is not known, Error (unreadable) for one that cannot be read.
-/// `sensor` is for live sensors only.
+/// Opens what a user names as SOURCE: the first kind of source_kinds() that recognises it. `sensor` is for
+/// live sensors only. Throws Error: (unreadable) there is no such source, no kind recognises it, or it cannot
+/// be read; (usage) the text has a mistake, or the kind is not in this build.
 std::unique_ptr<FrameSource> open_source(const std::string& uri, const SensorSettings& sensor = {});
+
+/// True if a file's name ends like a source: for lists from which a user chooses. Does not look at the disk.
+bool has_source_ending(const std::filesystem::path& file);
+
+/// How SOURCE can be written: "openni2[:URI], synthetic:NAME?KEY=VALUE&..., ...".
+std::string source_forms();
+
+/// The table of sources for --help: a line for each kind.
+std::string source_help();
 
 }  // namespace saccade

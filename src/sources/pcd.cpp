@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 
 #include "core/png.hpp"
+#include "sources/cloud_camera.hpp"
 #include "sources/lzf.hpp"
 
 namespace saccade {
@@ -52,15 +53,15 @@ std::vector<string_view> words_of(string_view line) {
   return words;
 }
 
-std::size_t whole_number(string_view word, std::size_t most, const char* what) {
+std::size_t parse_integer(string_view word, std::size_t most, const char* what) {
   std::size_t value = 0;
   const auto [end, code] = std::from_chars(word.data(), word.data() + word.size(), value);
   if (code != std::errc{} || end != word.data() + word.size() || value > most)
-    throw broken(fmt::format("{} is not a whole number up to {}", what, most));
+    throw broken(fmt::format("{} is not an integer up to {}", what, most));
   return value;
 }
 
-// What a header line says of each field.
+// Calls set(field, word) for each field with its word of a header line.
 template <typename Set>
 void for_each_field(Header& header, const std::vector<string_view>& words, Set set) {
   if (words.size() - 1 != header.fields.size())
@@ -74,9 +75,9 @@ void read_line(Header& header, const std::vector<string_view>& words) {
   const string_view key = words[0];
   if (std::find(kKeys.begin(), kKeys.end(), key) == kKeys.end())
     throw broken("its header has an unknown line");
-  if (words.size() < 2) throw broken(fmt::format("nothing behind {}", key));
+  if (words.size() < 2) throw broken(fmt::format("nothing follows {}", key));
   const auto side = [&](const char* what) {
-    return static_cast<int>(whole_number(words[1], 1u << 30, what));
+    return static_cast<int>(parse_integer(words[1], 1u << 30, what));
   };
   if (key == "FIELDS" || key == "COLUMNS") {
     if (words.size() - 1 > kMostFields) throw broken("too many fields");
@@ -84,19 +85,19 @@ void read_line(Header& header, const std::vector<string_view>& words) {
     for_each_field(header, words, [](Field& field, string_view word) { field.name = word; });
   } else if (key == "SIZE") {
     for_each_field(header, words,
-                   [](Field& field, string_view word) { field.size = whole_number(word, 8, "SIZE"); });
+                   [](Field& field, string_view word) { field.size = parse_integer(word, 8, "SIZE"); });
   } else if (key == "TYPE") {
     for_each_field(header, words, [](Field& field, string_view word) { field.type = word[0]; });
   } else if (key == "COUNT") {
     for_each_field(header, words, [](Field& field, string_view word) {
-      field.count = whole_number(word, kLargestPoint, "COUNT");
+      field.count = parse_integer(word, kLargestPoint, "COUNT");
     });
   } else if (key == "WIDTH") {
     header.size.width = side("WIDTH");
   } else if (key == "HEIGHT") {
     header.size.height = side("HEIGHT");
   } else if (key == "POINTS") {
-    header.points = whole_number(words[1], std::size_t{1} << 40, "POINTS");
+    header.points = parse_integer(words[1], std::size_t{1} << 40, "POINTS");
   } else if (key == "DATA") {
     header.encoding = words[1];
   }  // VERSION and VIEWPOINT do not matter
@@ -160,7 +161,7 @@ double number_at(Bytes bytes, std::size_t offset, std::size_t size) {
 
 using Points = std::vector<cv::Point3d>;
 
-// Fields of one point side by side, or (compressed) all values of one field side by side.
+// The data have the fields of one point side by side, or (by_field) all values of one field side by side.
 Points read_binary(const Header& header, Bytes data, bool by_field) {
   if (data.size() < header.points * header.point_bytes) throw broken("the file is cut");
   Points points(header.points);
@@ -183,7 +184,7 @@ Points read_compressed(const Header& header, Bytes data) {
   if (sizes[1] != header.points * header.point_bytes)
     throw broken("its uncompressed size is not that of its points");
   if (sizes[0] > data.size() - sizeof(sizes)) throw broken("the file is cut");
-  // LZF makes at most 264 bytes of 3: what claims more is not even tried.
+  // LZF makes at most 264 bytes of 3; data that claim more are not decompressed.
   if (sizes[1] / 88 > sizes[0]) throw broken("its compressed data are too short");
   std::vector<std::uint8_t> plain(sizes[1]);
   if (!lzf_decompress(data.subspan(sizeof(sizes), sizes[0]), plain))
@@ -204,12 +205,12 @@ Points read_ascii(const Header& header, string_view text) {
   for (std::size_t axis = 0; axis < 3; ++axis)
     for (std::size_t i = 0; i < header.xyz[axis]; ++i) columns[axis] += header.fields[i].count;
   const std::size_t last = *std::max_element(columns.begin(), columns.end());
-  if (text.size() / 2 < header.points) throw broken("the file is cut");  // before memory is taken for it
+  if (text.size() / 2 < header.points) throw broken("the file is cut");  // before memory is allocated for it
   Points points(header.points);
   std::size_t begin = 0;
   for (cv::Point3d& point : points) {
     std::vector<string_view> words;
-    while (words.empty()) {  // blank lines are nothing
+    while (words.empty()) {  // blank lines do not count
       if (begin >= text.size()) throw broken("the file is cut");
       const std::size_t end = std::min(text.find('\n', begin), text.size());
       words = words_of(text.substr(begin, end - begin));
@@ -220,56 +221,6 @@ Points read_ascii(const Header& header, string_view text) {
              parse_number(words[columns[2]])};
   }
   return points;
-}
-
-bool usable(const cv::Point3d& p) {
-  constexpr double kFarthest_m = 1e4;
-  return std::isfinite(p.x) && std::isfinite(p.y) && p.z > 0 && p.z < kFarthest_m;
-}
-
-// A least-squares line position = focal * slope + centre, slope = x/z or y/z.
-class LineFit {
- public:
-  void add(double slope, double position) {
-    ++n_;
-    s_ += slope;
-    p_ += position;
-    ss_ += slope * slope;
-    sp_ += slope * position;
-  }
-  double focal() const { return (n_ * sp_ - s_ * p_) / (n_ * ss_ - s_ * s_); }
-  double centre() const { return (p_ - focal() * s_) / n_; }
-
- private:
-  double n_ = 0, s_ = 0, p_ = 0, ss_ = 0, sp_ = 0;
-};
-
-// The pinhole camera of the points, if they were made with one: within a pixel of it on average.
-std::optional<Intrinsics> fit_camera(const Points& points, cv::Size size) {
-  constexpr int kFewest = 100;
-  LineFit across, down;
-  int count = 0;
-  const auto for_each_point = [&](auto use) {
-    for (std::size_t i = 0; i < points.size(); ++i)
-      if (usable(points[i])) {
-        const auto width = static_cast<std::size_t>(size.width);
-        use(points[i], static_cast<double>(i / width), static_cast<double>(i % width));
-      }
-  };
-  for_each_point([&](const cv::Point3d& p, double row, double col) {
-    across.add(p.x / p.z, col);
-    down.add(p.y / p.z, row);
-    ++count;
-  });
-  const Intrinsics camera{across.focal(), down.focal(), across.centre(), down.centre(),
-                          IntrinsicsOrigin::file};
-  if (count < kFewest || !camera.valid()) return std::nullopt;
-  double error_px = 0;
-  for_each_point([&](const cv::Point3d& p, double row, double col) {
-    error_px += std::hypot(camera.fx * p.x / p.z + camera.cx - col, camera.fy * p.y / p.z + camera.cy - row);
-  });
-  if (error_px / count > 1) return std::nullopt;
-  return camera;
 }
 
 Points read_points(const Header& header, Bytes data) {
@@ -288,7 +239,7 @@ OrganisedCloud read_pcd(Bytes pcd) {
   const Points points = read_points(header, pcd.subspan(header.data_begin));
   OrganisedCloud cloud{cv::Mat1f(header.size), fit_camera(points, header.size)};
   std::transform(points.begin(), points.end(), cloud.depth_mm.begin(),
-                 [](const cv::Point3d& p) { return usable(p) ? static_cast<float>(p.z * 1000) : 0.0F; });
+                 [](const cv::Point3d& p) { return is_seen(p) ? static_cast<float>(p.z * 1000) : 0.0F; });
   return cloud;
 }
 

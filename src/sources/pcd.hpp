@@ -12,18 +12,18 @@ namespace saccade {
 
 /// An organised point cloud: one point per pixel.
 struct OrganisedCloud {
-  cv::Mat1f depth_mm;                    ///< H x W, z of the points, 0 = none
-  std::optional<Intrinsics> intrinsics;  ///< of the camera that fits the points; std::nullopt if none does
+  cv::Mat1f depth_mm;                    ///< H x W, z of the points, 0 = no reading
+  std::optional<Intrinsics> intrinsics;  ///< fit_camera() of the points
 };
 
-/// Size of the image of an organised PCD. Throws std::runtime_error with the reason if it is no PCD, not
+/// Size of the image of an organised PCD. Throws std::runtime_error with the reason if it is not a PCD, not
 /// organised (HEIGHT 1) or larger than kLargestSide a side.
 cv::Size read_pcd_size(std::span<const std::uint8_t> pcd);
 
 /// Reads a PCD file (version 0.7 of the Point Cloud Library; DATA ascii, binary or binary_compressed) with
-/// the fields x, y and z in metres in camera frame, each a float of 4 or 8 bytes; others are skipped. A point
-/// that is not finite or not in front of the camera is none. Throws std::runtime_error with the reason, also
-/// for a cut file. Memory is bounded by the size of the file and of the image.
+/// the fields x, y and z in metres in camera frame, each a float of 4 or 8 bytes; other fields are skipped. A
+/// point that is not seen (is_seen()) is no reading. Throws std::runtime_error with the reason, also for a
+/// truncated file. Memory is bounded by the sizes of the file and of the image.
 OrganisedCloud read_pcd(std::span<const std::uint8_t> pcd);
 
 }  // namespace saccade

@@ -16,6 +16,7 @@
 #include "core/error.hpp"
 #include "scene/random.hpp"
 #include "scene/strips.hpp"
+#include "sources/source_kind.hpp"
 
 namespace saccade {
 namespace {
@@ -57,13 +58,13 @@ bool read_choice(string_view text, string_view first, Enum a, string_view second
 
 struct Key {
   string_view name, expects;
-  bool (*read)(string_view, SyntheticSpec&);  // false: not what is expected
+  bool (*read)(string_view, SyntheticSpec&);  // false: another value than expected
 };
 
 using Spec = SyntheticSpec;
 
 constexpr std::array<Key, 10> kKeys = {{
-    {"seed", "a whole number, 0..9007199254740992",
+    {"seed", "an integer, 0..9007199254740992",
      [](string_view v, Spec& s) { return read_number<std::uint64_t>(v, 0, std::uint64_t{1} << 53, s.seed); }},
     {"noise", "none or kinect",
      [](string_view v, Spec& s) {
@@ -71,9 +72,9 @@ constexpr std::array<Key, 10> kKeys = {{
      }},
     {"missing", "a share of the pixels, 0..0.9",
      [](string_view v, Spec& s) { return read_number<double>(v, 0, 0.9, s.missing); }},
-    {"frames", "a whole number, 1..1000000",
+    {"frames", "an integer, 1..1000000",
      [](string_view v, Spec& s) { return read_number<std::int64_t>(v, 1, 1'000'000, s.frames); }},
-    {"scenes", "a whole number, 1..1000000",
+    {"scenes", "an integer, 1..1000000",
      [](string_view v, Spec& s) { return read_number<std::int64_t>(v, 1, 1'000'000, s.scenes); }},
     {"size", "WxH with both in 1..8192, e.g. 640x480",
      [](string_view v, Spec& s) { return read_size(v, s.size); }},
@@ -83,7 +84,7 @@ constexpr std::array<Key, 10> kKeys = {{
      }},
     {"rate", "Hz, 0.1..1000",
      [](string_view v, Spec& s) { return read_number<double>(v, 0.1, 1000, s.rate_hz); }},
-    {"objects", "a whole number, 1..20, of the scene table only",
+    {"objects", "an integer, 1..20; the scene table only",
      [](string_view v, Spec& s) {
        return s.scene == "table" && read_number<int>(v, 1, scene::kMostTableObjects, s.objects);
      }},
@@ -177,8 +178,7 @@ ReadResult SyntheticSource::read(Frame& frame, std::chrono::milliseconds) {
   frame.timestamp_us = std::llround(static_cast<double>(index) * 1e6 / spec_.rate_hz);
   frame.name.clear();
   frame.intrinsics = info_.intrinsics;
-  // What a still camera sees of one scene is rendered once and shared by all frames; else view_ is rendered
-  // over.
+  // A still camera's view of one scene is rendered once and shared by all frames.
   const bool rendered_once = spec_.camera == SyntheticSpec::Camera::still && spec_.scenes == 1;
   const auto give = [rendered_once](const auto& seen, auto& to) {
     if (rendered_once)
@@ -206,5 +206,17 @@ void SyntheticSource::seek(std::int64_t index) {
   if (index < 0) throw std::invalid_argument("SyntheticSource: negative frame index");
   next_ = index;
 }
+
+extern const SourceKind kSyntheticKind = {
+    .name = "synthetic",
+    .written = "synthetic:NAME?KEY=VALUE&...",
+    .help = "a ray-cast scene with exact labels: cone, cube, cylinder, sphere, table or room",
+    .recognised_by = "synthetic:",
+    .recognises = [](const SourceInput& input) { return input.uri.starts_with(kScheme); },
+    .open = [](const SourceInput& input, const SensorSettings&) -> std::unique_ptr<FrameSource> {
+      return std::make_unique<SyntheticSource>(input.uri);
+    },
+    .is_path = false,
+};
 
 }  // namespace saccade

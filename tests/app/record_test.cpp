@@ -12,6 +12,7 @@
 #include "oni/recording.hpp"
 #include "oni/repair.hpp"
 #include "sources/open_source.hpp"
+#include "tests/support/outcome.hpp"
 #include "tests/support/subprocess.hpp"
 
 namespace saccade {
@@ -34,7 +35,7 @@ class RecordTest : public ProgramTest {
     cv::Mat1f depth;
     for (std::size_t k = 0; k < node->frames.size(); ++k) {
       source->read(frame, std::chrono::milliseconds(0));
-      EXPECT_EQ(recording.read_depth(*node, k, depth), "");
+      EXPECT_TRUE(succeeded(recording.read_depth(*node, k, depth)));
       EXPECT_EQ(cv::norm(depth, frame.depth_mm, cv::NORM_INF), 0) << "frame " << k;
     }
     return static_cast<std::int64_t>(node->frames.size());

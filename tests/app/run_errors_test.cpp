@@ -93,7 +93,7 @@ TEST_F(RunErrorsTest, Sources) {
   fs::create_directories(folder_ / "data");
   expect(kUnreadable, "no frames in the folder", {}, in("data"));
   put("0000_depth.png", cv::Mat1b(64, 64, std::uint8_t{1}));
-  expect(kUnreadable, "8-bit gray", {}, in("data"));
+  expect(kUnreadable, "8-bit grey", {}, in("data"));
   put("0000_depth.png", cv::Mat3b(64, 64, cv::Vec3b()));
   expect(kUnreadable, "8-bit RGB", {}, in("data"));
   put("0000_depth.png", cv::Mat1w(64, 64, std::uint16_t{800}));

@@ -91,8 +91,7 @@ int play_stored(const fs::path& file) {
   const OniNode& node = *main_depth(recording);
   cv::Mat1w depth;
   for (std::size_t k = 0; k < node.frames.size(); ++k)
-    if (!recording.read_stored_depth(node, k, depth).empty())
-      throw unreadable("a bad frame", file.string(), "");
+    if (!recording.read_stored_depth(node, k, depth)) throw unreadable("a bad frame", file.string(), "");
   return static_cast<int>(node.frames.size());
 }
 

@@ -1,7 +1,7 @@
 // Stands in for libfreenect with what fakenect lacks: depth in mm and registered, infrared, flags, the
-// geometry of the camera, and a Kinect that is pulled out and put back. Depth is 1000 + k mm when registered,
-// 2000 + k when not; the infrared 300 + k; k counts from 1. FAKE_KINECT_FRAMES=N: after N depth frames it is
-// away for 1.5 s, once.
+// geometry of the camera, and a Kinect that is unplugged and plugged in again. Depth is 1000 + k mm when
+// registered, 2000 + k when not; the infrared 300 + k; k counts from 1. FAKE_KINECT_FRAMES=N: after N depth
+// frames it is away for 1.5 s, once.
 #include <libfreenect.h>
 #include <libfreenect_registration.h>
 

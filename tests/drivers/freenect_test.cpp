@@ -1,6 +1,6 @@
-// Kinect v1 without one: sessions written here are played by fakenect, which stands in for libfreenect, and
-// come through our driver module and OpenNI2. In a subprocess, since fakenect must be found before the real
-// library.
+// Kinect v1 without one: fakenect, which stands in for libfreenect, plays sessions written here, and they
+// come through our driver module and OpenNI2. In a subprocess, because fakenect must be loaded instead of the
+// real library.
 #include <algorithm>
 #include <cstdlib>
 #include <cstring>
@@ -104,7 +104,7 @@ struct Session {
   std::map<std::uint64_t, std::vector<std::uint8_t>> colour;
 };
 
-// Writes a fakenect session of `count` frames, whose clock starts anew on the way.
+// Writes a fakenect session of `count` frames, whose clock restarts on the way.
 Session write_session(const fs::path& folder, int count) {
   Session session;
   std::string index;

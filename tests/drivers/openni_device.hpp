@@ -86,7 +86,7 @@ class SeenStream {
   openni::VideoStream stream_;
 };
 
-/// Counts what OpenNI2 tells of devices.
+/// Counts OpenNI2's reports about devices.
 class DeviceEvents : public openni::OpenNI::DeviceConnectedListener,
                      public openni::OpenNI::DeviceDisconnectedListener,
                      public openni::OpenNI::DeviceStateChangedListener {
@@ -110,7 +110,7 @@ class DeviceEvents : public openni::OpenNI::DeviceConnectedListener,
     note(state == openni::DEVICE_STATE_OK ? "ok" : "error");
   }
 
-  /// Waits until `what` was told `times`.
+  /// Waits until `what` was reported `times`.
   bool wait_for(const std::string& what, int times = 1) {
     std::unique_lock lock(mutex_);
     return changed_.wait_for(lock, kGenerous, [&] { return counts_[what] >= times; });

@@ -15,7 +15,7 @@
 
 namespace saccade {
 
-/// The virtual device, through OpenNI2 as any program would use it. Each test starts OpenNI2 anew, with the
+/// The virtual device, through OpenNI2 as any program would use it. Each test starts OpenNI2 again, with the
 /// device and the faults that it asks for.
 class VirtualDeviceTest : public OpenNiTest {
  protected:

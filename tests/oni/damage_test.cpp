@@ -38,7 +38,7 @@ class DamageTest : public OniFiles {
     const OniNode* node = main_depth(recording);
     cv::Mat1f depth;
     for (std::size_t k = 0; node != nullptr && k < node->frames.size(); ++k) {
-      if (!recording.read_depth(*node, k, depth).empty()) continue;
+      if (!recording.read_depth(*node, k, depth)) continue;
       for (int n = 0; n < kFrames; ++n)
         if (equal(depth, test_frame(n, kSize, true).depth_mm)) found.push_back(n);
     }

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <random>
+#include <stdexcept>
 #include <vector>
 
 #include "oni/bytes.hpp"
@@ -24,7 +25,7 @@ inline std::vector<std::vector<std::uint8_t>> seed_recordings(const std::filesys
     }
   // A cropped stream of shifts, and pictures of the other formats.
   for (const OniPixelFormat pixels :
-       {OniPixelFormat::yuv422, OniPixelFormat::yuyv, OniPixelFormat::gray8, OniPixelFormat::gray16}) {
+       {OniPixelFormat::yuv422, OniPixelFormat::yuyv, OniPixelFormat::grey8, OniPixelFormat::grey16}) {
     OniRecordWriter writer(file, true);
     add_test_stream(writer, 1, {.pixels = OniPixelFormat::shift_9_2, .width = 16, .height = 12});
     ByteBuilder crop, table;
@@ -33,21 +34,24 @@ inline std::vector<std::vector<std::uint8_t>> seed_recordings(const std::filesys
     for (int shift = 0; shift < 64; ++shift) table.put(static_cast<std::uint16_t>(20 * shift));
     writer.add_property(1, OniRecordType::general_property, oni_property::kCropping, crop.bytes());
     writer.add_property(1, OniRecordType::general_property, oni_property::kShiftToDepth, table.bytes());
-    const bool coded = pixels == OniPixelFormat::gray8;
+    const bool coded = pixels == OniPixelFormat::grey8;
     add_test_stream(writer, 2,
-                    {.type = pixels == OniPixelFormat::gray16 ? OniNodeType::ir : OniNodeType::image,
+                    {.type = pixels == OniPixelFormat::grey16 ? OniNodeType::ir : OniNodeType::image,
                      .codec = coded ? OniCodec::z8 : OniCodec::none,
                      .pixels = pixels,
                      .width = 16,
                      .height = 12});
     writer.begin();
     // In Im8z: a value and 191 more, as runs.
-    std::vector<std::uint8_t> gray = {9, 0x6D, 0xE5};
-    gray.insert(gray.end(), 6, 0xEF);
+    std::vector<std::uint8_t> grey = {9, 0x6D, 0xE5};
+    grey.insert(grey.end(), 6, 0xEF);
+    bool written = true;
     for (std::uint64_t k = 0; k < 3; ++k) {
-      writer.write_frame(1, 33333 * k, std::vector<std::uint8_t>(96, static_cast<std::uint8_t>(k)));
-      writer.write_frame(2, 33333 * k, coded ? gray : std::vector<std::uint8_t>(384, 99));
+      written &=
+          writer.write_frame(1, 33333 * k, std::vector<std::uint8_t>(96, static_cast<std::uint8_t>(k)));
+      written &= writer.write_frame(2, 33333 * k, coded ? grey : std::vector<std::uint8_t>(384, 99));
     }
+    if (!written) throw std::runtime_error("no room on the disk for the seed recordings");
     writer.close();
     seeds.push_back(read_bytes(file));
   }

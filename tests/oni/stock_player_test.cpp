@@ -5,6 +5,7 @@
 #include "oni/recording.hpp"
 #include "oni/repair.hpp"
 #include "oni_fixtures.hpp"
+#include "tests/support/outcome.hpp"
 
 namespace saccade {
 namespace {
@@ -55,7 +56,7 @@ class StockPlayer : public OniFiles {
     ASSERT_EQ(played.size(), count);
     cv::Mat1w depth;
     for (std::size_t k = 0; k < count; ++k) {
-      ASSERT_EQ(recording.read_stored_depth(node, k, depth), "");
+      ASSERT_TRUE(succeeded(recording.read_stored_depth(node, k, depth)));
       EXPECT_TRUE(equal(depth(recording.format(node, k).crop), played[k].depth)) << "frame " << k;
       EXPECT_EQ(played[k].timestamp_us, node.frames[k].timestamp_us);
       EXPECT_EQ(played[k].number, node.frames[k].number);

@@ -118,7 +118,7 @@ class WriteOrder : public OniFiles {
     std::int64_t found = 0;
     cv::Mat1f depth;
     for (std::size_t k = 0; node != nullptr && k < node->frames.size(); ++k) {
-      if (!recording.read_depth(*node, k, depth).empty()) continue;
+      if (!recording.read_depth(*node, k, depth)) continue;
       ASSERT_LT(found, std::min(count + 1, kFrames)) << where;
       const bool same = equal(depth, frames_[static_cast<std::size_t>(found)]);
       ASSERT_TRUE(same || (torn && found == count)) << where << ", frame " << found;

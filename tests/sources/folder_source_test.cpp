@@ -1,5 +1,3 @@
-#include "sources/folder_source.hpp"
-
 #include <filesystem>
 #include <string_view>
 
@@ -34,7 +32,7 @@ class FolderSourceTest : public FolderTest {
 
   std::string error() const {
     try {
-      open_folder(folder_);
+      open_source(folder_.string());
     } catch (const Error& e) {
       EXPECT_EQ(e.status(), ExitStatus::unreadable);
       return e.what();
@@ -45,7 +43,7 @@ class FolderSourceTest : public FolderTest {
 
   // The reason for which the only, or second, frame is rejected.
   std::string rejection() const {
-    const auto source = open_folder(folder_);
+    const auto source = open_source(folder_.string());
     Frame frame;
     ReadResult result = source->read(frame, kNoWait);
     if (result.status == ReadStatus::frame) result = source->read(frame, kNoWait);
@@ -61,7 +59,7 @@ TEST_F(FolderSourceTest, ReadsFramesInTheOrderOfTheirNumbersWithColourAndLabels)
   put("9_label.png", cv::Mat1b(12, 16, std::uint8_t{7}));
   put("9_class.png", cv::Mat1w(12, 16, std::uint16_t{300}));
   put_text("notes.txt", "not a frame");
-  const auto source = open_folder(folder_);
+  const auto source = open_source(folder_.string());
   EXPECT_EQ(source->info().frame_count, 2);
   EXPECT_EQ(source->info().size, cv::Size(16, 12));
   Frame frame;
@@ -88,7 +86,7 @@ TEST_F(FolderSourceTest, ReadsFramesInTheOrderOfTheirNumbersWithColourAndLabels)
 
 TEST_F(FolderSourceTest, GapsInTheNumbersAreReported) {
   for (const char* name : {"0001_depth.png", "0003_depth.png", "0007_depth.png"}) put_depth(name, 1000);
-  EXPECT_THAT(open_folder(folder_)->info().notes,
+  EXPECT_THAT(open_source(folder_.string())->info().notes,
               ElementsAre("4 frames are missing in the numbering: 2, 4..6"));
 }
 
@@ -98,17 +96,17 @@ TEST_F(FolderSourceTest, JpegColourIsRead) {
   cv::imencode(".jpg", cv::Mat3b(12, 16, cv::Vec3b(200, 200, 200)), jpeg);
   write_file(folder_ / "0_rgb.jpg", jpeg);
   Frame frame;
-  ASSERT_EQ(open_folder(folder_)->read(frame, kNoWait).status, ReadStatus::frame);
+  ASSERT_EQ(open_source(folder_.string())->read(frame, kNoWait).status, ReadStatus::frame);
   EXPECT_NEAR(frame.colour(5, 5)[0], 200, 3);
 }
 
 TEST_F(FolderSourceTest, MetaGivesTheCameraAndItsAbsenceIsAGuess) {
   put_depth("0_depth.png", 1000);
-  EXPECT_EQ(open_folder(folder_)->info().intrinsics.origin, IntrinsicsOrigin::guess);
+  EXPECT_EQ(open_source(folder_.string())->info().intrinsics.origin, IntrinsicsOrigin::guess);
   put_text("meta.json", R"({"name": "x"})");
-  EXPECT_EQ(open_folder(folder_)->info().intrinsics.origin, IntrinsicsOrigin::guess);
+  EXPECT_EQ(open_source(folder_.string())->info().intrinsics.origin, IntrinsicsOrigin::guess);
   put_text("meta.json", R"({"fx": 500, "fy": 501.5, "cx": 8, "cy": 6})");
-  const Intrinsics camera = open_folder(folder_)->info().intrinsics;
+  const Intrinsics camera = open_source(folder_.string())->info().intrinsics;
   EXPECT_EQ(camera.origin, IntrinsicsOrigin::file);
   EXPECT_EQ(camera.fy, 501.5);
 }
@@ -126,9 +124,9 @@ TEST_F(FolderSourceTest, BrokenMetaIsAnError) {
 TEST_F(FolderSourceTest, WrongDepthImagesAreNamedWithWhatIsWrong) {
   const auto put_only = [&](const cv::Mat& image) { put("0000_depth.png", image); };
   put_only(cv::Mat1b(12, 16, std::uint8_t{1}));
-  EXPECT_THAT(error(), HasSubstr("0000_depth.png: 8-bit gray is not 16-bit gray depth"));
+  EXPECT_THAT(error(), HasSubstr("0000_depth.png: 8-bit grey is not 16-bit grey depth"));
   put_only(cv::Mat3b(12, 16, cv::Vec3b()));
-  EXPECT_THAT(error(), HasSubstr("8-bit RGB is not 16-bit gray depth"));
+  EXPECT_THAT(error(), HasSubstr("8-bit RGB is not 16-bit grey depth"));
   put_only(cv::Mat1w(1, 1, std::uint16_t{1}));
   EXPECT_THAT(error(), HasSubstr("1x1 is smaller than 8 pixels"));
   put_only(cv::Mat1w(8, 8193, std::uint16_t{1}));
@@ -148,7 +146,7 @@ TEST_F(FolderSourceTest, AFrameCutShortIsRejectedAndTheNextIsRead) {
   auto bytes = read_file(folder_ / "1_depth.png");
   bytes.resize(bytes.size() - 30);
   write_file(folder_ / "1_depth.png", bytes);
-  const auto source = open_folder(folder_);
+  const auto source = open_source(folder_.string());
   Frame frame;
   EXPECT_EQ(source->read(frame, kNoWait).status, ReadStatus::frame);
   const ReadResult result = source->read(frame, kNoWait);
@@ -170,17 +168,16 @@ TEST_F(FolderSourceTest, OtherSizesOfDepthColourAndLabelsAreRejected) {
   put("1_label.png", cv::Mat1b(24, 32, std::uint8_t{1}));
   EXPECT_THAT(rejection(), HasSubstr("1_label.png"));
   put("1_label.png", cv::Mat3b(12, 16, cv::Vec3b()));
-  EXPECT_THAT(rejection(), HasSubstr("labels must be gray or palette"));
+  EXPECT_THAT(rejection(), HasSubstr("labels must be grey or palette"));
   put("1_label.png", cv::Mat1b(12, 16, std::uint8_t{1}));
   put("1_class.png", cv::Mat3b(12, 16));
-  EXPECT_THAT(rejection(), HasSubstr("1_class.png: classes must be gray or palette"));
+  EXPECT_THAT(rejection(), HasSubstr("1_class.png: classes must be grey or palette"));
   put("1_class.png", cv::Mat1b(12, 15));
   EXPECT_THAT(rejection(), HasSubstr("1_class.png: 15x12, but the depth is 16x12"));
 }
 
 TEST_F(FolderSourceTest, EmptyAndMissingFoldersAreErrors) {
   EXPECT_THAT(error(), HasSubstr("no frames in the folder"));
-  EXPECT_THROW(open_folder(folder_ / "none"), Error);
   EXPECT_THROW(open_source((folder_ / "none").string()), Error);
 }
 
@@ -192,7 +189,7 @@ TEST_F(FolderSourceTest, TumFolderIsPairedByTime) {
   put("rgb/a.png", cv::Mat3b(12, 16, cv::Vec3b(9, 9, 9)));
   put_text("depth.txt", "# depth maps\n# timestamp filename\n100.50 depth/b.png\n100.25 depth/a.png\n");
   put_text("rgb.txt", "# colour\n100.26 rgb/a.png\n100.60 rgb/a.png\n");
-  const auto source = open_folder(folder_);
+  const auto source = open_source(folder_.string());
   EXPECT_EQ(source->info().kind, "tum");
   EXPECT_THAT(source->info().notes, ElementsAre("1 depth frames have no colour image within 20 ms"));
   Frame frame;
@@ -216,7 +213,7 @@ TEST(FolderSourceOnRealData, ReadsEveryFrame) {
   for (const char* name : {"osd_learn", "kitchen_sequence"}) {
     const fs::path folder = fs::path(SACCADE_SHARED_DIR) / "data" / name;
     if (!fs::exists(folder)) GTEST_SKIP() << folder << " is not on this machine";
-    const auto source = open_folder(folder);
+    const auto source = open_source(folder.string());
     EXPECT_THAT(source->info().notes, IsEmpty());
     EXPECT_EQ(source->info().intrinsics.origin, IntrinsicsOrigin::file);
     Frame frame;

@@ -1,7 +1,5 @@
 // Small files in the format of NYU Depth V2, written with libhdf5 as MATLAB lays them out.
 
-#include "sources/nyu_source.hpp"
-
 #include <hdf5.h>
 
 #include <limits>
@@ -153,7 +151,7 @@ TEST_F(NyuSourceTest, WithoutInstancesClassesAreObjects) {
   put_depths();
   put_labels();
   close();
-  const auto source = open_nyu(path_);
+  const auto source = open_source(path_.string());
   EXPECT_THAT(source->info().notes, ElementsAre(HasSubstr("no instances")));
   Frame frame;
   ASSERT_EQ(source->read(frame, kNoWait).status, ReadStatus::frame);
@@ -165,7 +163,7 @@ TEST_F(NyuSourceTest, WithoutInstancesClassesAreObjects) {
 TEST_F(NyuSourceTest, WithoutLabels) {
   put_depths();
   close();
-  const auto source = open_nyu(path_);
+  const auto source = open_source(path_.string());
   EXPECT_THAT(source->info().notes, ElementsAre(HasSubstr("no labels")));
   Frame frame;
   ASSERT_EQ(source->read(frame, kNoWait).status, ReadStatus::frame);

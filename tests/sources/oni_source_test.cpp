@@ -157,11 +157,11 @@ TEST_F(OniSourceTest, ColourOfAnotherSizeIsScaledAndTold) {
     writer.add_int(id, oni_property::kOniFormat, static_cast<std::uint64_t>(pixels));
   };
   add(1, OniNodeType::depth, OniPixelFormat::depth_1mm, 2);
-  add(2, OniNodeType::ir, OniPixelFormat::gray8, 4);
+  add(2, OniNodeType::ir, OniPixelFormat::grey8, 4);
   writer.begin();
-  writer.write_frame(1, 0, std::vector<std::uint8_t>(8, 1));
-  writer.write_frame(2, 24'000, std::vector<std::uint8_t>(8, 77));
-  writer.write_frame(1, 66'000, std::vector<std::uint8_t>(8, 1));
+  ASSERT_TRUE(writer.write_frame(1, 0, std::vector<std::uint8_t>(8, 1)));
+  ASSERT_TRUE(writer.write_frame(2, 24'000, std::vector<std::uint8_t>(8, 77)));
+  ASSERT_TRUE(writer.write_frame(1, 66'000, std::vector<std::uint8_t>(8, 1)));
   writer.close();
   OniSource source(file());
   EXPECT_THAT(source.info().notes, Contains(HasSubstr("infrared")));

@@ -83,7 +83,7 @@ TEST_P(PcdTest, DamagedFilesDoNoHarm) {
         cv::minMaxLoc(cloud.depth_mm, &least, &most);
         EXPECT_TRUE(least >= 0 && std::isfinite(most));
       } catch (const std::runtime_error&) {
-        // The reason is told.
+        // The reason is given.
       }
     }
 }
@@ -96,13 +96,13 @@ TEST_P(PcdTest, HeadersThatCannotBe) {
       {"HEIGHT 20", "HEIGHT 1", "not organised"},
       {"HEIGHT 20", "HEIGHT 21", "POINTS is not WIDTH times HEIGHT"},
       {"WIDTH 32", "WIDTH 9000", "larger than 8192"},
-      {"WIDTH 32", "WIDTH -32", "whole number"},
+      {"WIDTH 32", "WIDTH -32", "integer"},
       {"FIELDS x", "FIELDS q", "no field x"},
       {"SIZE 4 4", "SIZE 4 2", "field y is not one float"},
       {"SIZE 4 4", "SIZE 4", "SIZE is not given for each field"},
       {"TYPE F", "TYPE U", "field x is not one float"},
       {"COUNT 1", "COUNT 2", "field x is not one float"},
-      {"COUNT 1", "COUNT 9999999", "whole number"},
+      {"COUNT 1", "COUNT 9999999", "integer"},
       {"DATA ", "DATA x", "its DATA is not ascii"},
       {"DATA ", "ATAD ", "unknown line"},
   };
@@ -117,7 +117,7 @@ INSTANTIATE_TEST_SUITE_P(Encodings, PcdTest,
 TEST(Pcd, AHeaderWithoutEnd) {
   EXPECT_THAT(reason({}), HasSubstr("no DATA line"));
   EXPECT_THAT(reason(bytes_of("# .PCD v0.7\nVERSION 0.7\nWIDTH 4\n")), HasSubstr("no DATA line"));
-  EXPECT_THAT(reason(bytes_of("WIDTH\n")), HasSubstr("nothing behind WIDTH"));
+  EXPECT_THAT(reason(bytes_of("WIDTH\n")), HasSubstr("nothing follows WIDTH"));
 }
 
 TEST(Pcd, PointsThatFitNoCameraGiveNone) {

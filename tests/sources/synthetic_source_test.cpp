@@ -76,7 +76,7 @@ TEST(SyntheticSpec, NamesWhatIsWrongAndWhatIsKnown) {
       {"synthetic:table?", "unknown key ''", "known keys"},
       {"synthetic:table?seed=1&", "unknown key ''", "known keys"},
       {"synthetic:table?seed=1&seed=1", "'seed' is given twice", "once"},
-      {"synthetic:table?seed", "bad value '' of key 'seed'", "whole number"},
+      {"synthetic:table?seed", "bad value '' of key 'seed'", "an integer"},
       {"synthetic:table?seed=-1", "'-1'", "0.."},
       {"synthetic:table?seed=1.5", "'1.5'", "0.."},
       {"synthetic:table?seed=99999999999999999999", "'99999999999999999999'", "0.."},

@@ -1,0 +1,92 @@
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <sstream>
+
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+#include "core/file.hpp"
+#include "sources/folder_source.hpp"
+
+namespace saccade {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr const char* kHint = "each line names a time in seconds and a file";
+
+struct TimedFile {
+  double time_s = 0;
+  std::string stamp;
+  fs::path path;
+};
+
+// A TUM list: "timestamp filename" lines, '#' starts a comment.
+std::vector<TimedFile> read_tum_list(const fs::path& list) {
+  const auto bytes = read_file(list, 256u << 20);
+  std::istringstream text(std::string(bytes.begin(), bytes.end()));
+  std::vector<TimedFile> files;
+  std::string line;
+  for (int number = 1; std::getline(text, line); ++number) {
+    if (line.empty() || line[0] == '#' || line == "\r") continue;
+    std::istringstream fields(line);
+    std::string stamp, name;
+    fields >> stamp >> name;
+    double time_s = 0;
+    const auto [end, code] = std::from_chars(stamp.data(), stamp.data() + stamp.size(), time_s);
+    if (code != std::errc{} || end != stamp.data() + stamp.size() || !std::isfinite(time_s) || name.empty())
+      throw unreadable("not a 'timestamp filename' line", fmt::format("{}:{}", list.string(), number), kHint);
+    files.push_back({time_s, stamp, list.parent_path() / name});
+  }
+  std::stable_sort(files.begin(), files.end(),
+                   [](const auto& a, const auto& b) { return a.time_s < b.time_s; });
+  return files;
+}
+
+FolderListing list_tum(const fs::path& folder) {
+  constexpr double kUnitsPerMetre = 5000, kSameMoment_s = 0.02;
+  FolderListing listing;
+  listing.mm_per_unit = 1000 / kUnitsPerMetre;
+  const auto depth = read_tum_list(folder / "depth.txt");
+  if (depth.empty()) throw unreadable("no frames in the list", (folder / "depth.txt").string(), kHint);
+  std::vector<TimedFile> colour;
+  if (fs::exists(folder / "rgb.txt")) colour = read_tum_list(folder / "rgb.txt");
+  std::size_t without = 0;
+  for (const TimedFile& file : depth) {
+    FolderEntry entry{
+        file.stamp, std::llround((file.time_s - depth.front().time_s) * 1e6), file.path, {}, {}};
+    const auto distance = [&](const TimedFile& other) { return std::abs(other.time_s - file.time_s); };
+    const auto nearest = std::min_element(colour.begin(), colour.end(), [&](const auto& a, const auto& b) {
+      return distance(a) < distance(b);
+    });
+    if (nearest != colour.end() && distance(*nearest) <= kSameMoment_s)
+      entry.colour = nearest->path;
+    else
+      ++without;
+    listing.entries.push_back(entry);
+  }
+  const double span_s = depth.back().time_s - depth.front().time_s;
+  if (span_s > 0) listing.rate_hz = static_cast<double>(depth.size() - 1) / span_s;
+  if (!colour.empty() && without > 0)
+    listing.notes.push_back(fmt::format("{} depth frames have no colour image within 20 ms", without));
+  return listing;
+}
+
+bool has_depth_list(const SourceInput& input) {
+  std::error_code code;
+  return input.type == SourceInput::Type::folder && fs::exists(input.path / "depth.txt", code);
+}
+
+}  // namespace
+
+extern const SourceKind kTumKind = {
+    .name = "tum",
+    .written = "FOLDER",
+    .help = "a sequence of the TUM RGB-D data set",
+    .recognised_by = "depth.txt",
+    .recognises = has_depth_list,
+    .open = [](const SourceInput& input,
+               const SensorSettings&) { return open_folder(input, kTumKind.name, list_tum(input.path)); },
+};
+
+}  // namespace saccade

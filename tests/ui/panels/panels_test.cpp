@@ -1,0 +1,287 @@
+// The viewer's own panels, drawn without a display: what they show and what a click in them does.
+#include <gmock/gmock.h>
+
+#include "core/error.hpp"
+#include "tests/ui/support/fake_graphics.hpp"
+#include "tests/ui/support/imgui_frames.hpp"
+#include "ui/panels/panels.hpp"
+#include "ui/panels/picture_drawing.hpp"
+
+namespace saccade {
+namespace {
+
+using test::ImGuiFrames;
+using ::testing::Contains;
+
+class ViewerPanelsTest : public ::testing::Test {
+ protected:
+  explicit ViewerPanelsTest(float width = 332, float height = 700) : frames_(width, height) {
+    view_.colours = &colours_of(Theme::dark);
+    view_.fonts = {ImGui::GetFont(), ImGui::GetIO().Fonts->Fonts[0]};
+    view_.act = [this](Action action) { acts_.push_back(action); };
+    view_.open = [this](const std::string& uri) { opened_ = uri; };
+  }
+
+  void show_result(cv::Size size = {640, 480}) {
+    auto result = std::make_shared<ViewResult>();
+    result->serial = 1;
+    for (Computed* side : {&result->a, &result->b}) {
+      side->result.frame.depth_mm = cv::Mat1f(size, 1000.0F);
+      side->result.maps.master = cv::Mat1f(size, 0.25F);
+      side->smooth = side->result.maps.master;
+      side->result.attention.fixations = {{100, 200, 1, {10, 20, 1000}, {}}, {300, 400, 0.5F, {}, {}}};
+    }
+    result->compared = true;
+    view_.result = result;
+    view_.source.phase = SessionState::Phase::open;
+    view_.source.source.size = size;
+    view_.source.source.frame_count = 16;
+    view_.timeline.reset(16);
+  }
+
+  using Draw = std::function<void()>;
+  ImGuiFrames::Drawn settled(const Draw& draw) {
+    frames_.frame(draw);
+    return frames_.frame(draw);
+  }
+
+  // A click on a share of the width of a thing whose place the panel tells.
+  void click(const char* place, const Draw& draw, float across = 0.5F) {
+    settled(draw);
+    const nlohmann::json box = view_.places.at(place);
+    const float left = box[0], top = box[1], right = box[2], bottom = box[3];
+    frames_.click({left + across * (right - left), (top + bottom) / 2}, draw);
+  }
+
+  void expect_fits(const Draw& draw) {
+    const auto drawn = settled(draw);
+    // Behind a pair of drag fields ImGui puts a label, here an empty one, after a gap.
+    EXPECT_LE(drawn.content_width, drawn.window_width + ImGui::GetStyle().ItemInnerSpacing.x);
+  }
+
+  ImGuiFrames frames_;
+  ViewState state_;
+  Session session_{[](auto&&...) -> std::unique_ptr<FrameSource> { throw failed("none", "", ""); }, [] {},
+                   ComputeRequest{}};
+  test::FakeGraphics graphics_;
+  ViewContext view_{state_, session_, graphics_};
+  std::vector<Action> acts_;
+  std::string opened_;
+};
+
+TEST_F(ViewerPanelsTest, TheKernelIsSetByItsSliderAndIsOdd) {
+  const Draw draw = [this] { draw_tuning_panel(view_); };
+  click("kernel", draw, 0.5F);
+  EXPECT_NEAR(state_.settings.a.kernel, 65, 8);
+  EXPECT_EQ(state_.settings.a.kernel % 2, 1);
+  EXPECT_EQ(state_.settings.b.kernel, Settings{}.kernel);
+}
+
+TEST_F(ViewerPanelsTest, TuningEditsTheSideThatIsChosen) {
+  const Draw draw = [this] { draw_tuning_panel(view_); };
+  state_.comparison = Comparison::split;
+  state_.edit_b = true;
+  click("kernel", draw, 0.5F);
+  EXPECT_GT(state_.settings.b.kernel, 50);
+  EXPECT_EQ(state_.settings.a.kernel, Settings{}.kernel);
+}
+
+TEST_F(ViewerPanelsTest, AModelOfTheImageHasNoKernel) {
+  state_.settings.a.model = "itti";
+  click(
+      "kernel", [this] { draw_tuning_panel(view_); }, 0.5F);
+  EXPECT_EQ(state_.settings.a.kernel, Settings{}.kernel);
+}
+
+TEST_F(ViewerPanelsTest, UndoIsOfferedOnlyWhereThereIsSomething) {
+  const Draw draw = [this] { draw_tuning_panel(view_); };
+  click("undo", draw);
+  click("redo", draw);
+  EXPECT_THAT(acts_, ::testing::IsEmpty());
+  view_.can_undo = view_.can_redo = true;
+  click("undo", draw);
+  click("redo", draw);
+  click("copy", draw);
+  EXPECT_THAT(acts_, ::testing::ElementsAre(Action::undo, Action::redo, Action::copy_command));
+}
+
+TEST_F(ViewerPanelsTest, TheSidePanelsFitIntoTheSideBar) {
+  show_result();
+  state_.comparison = Comparison::split;
+  state_.settings.a.selector = Selector::wta;
+  state_.style.background = Background::depth;
+  state_.style.depth.range_mm = ValueRange{500, 12345};
+  state_.style.map.range = ValueRange{0, 4};
+  expect_fits([this] { draw_tuning_panel(view_); });
+  expect_fits([this] { draw_display_panel(view_); });
+  expect_fits([this] { draw_performance_panel(view_); });
+}
+
+class TransportTest : public ViewerPanelsTest {
+ protected:
+  TransportTest() : ViewerPanelsTest(900, 120) {}
+  const Draw draw_ = [this] { draw_transport(view_); };
+};
+
+TEST_F(TransportTest, ButtonsDoWhatTheyShow) {
+  show_result();
+  for (const char* button : {"first", "back", "play", "on", "last", "loop", "record", "snapshot"})
+    click(button, draw_);
+  EXPECT_THAT(acts_, ::testing::ElementsAre(Action::first_frame, Action::step_back, Action::play_pause,
+                                            Action::step_on, Action::last_frame, Action::toggle_loop,
+                                            Action::record, Action::snapshot));
+  expect_fits(draw_);
+}
+
+TEST_F(TransportTest, ALiveSourceCannotBeStepped) {
+  show_result();
+  view_.source.source.live = true;
+  settled(draw_);
+  EXPECT_TRUE(view_.places.contains("play"));
+  for (const char* button : {"first", "back", "on", "last", "loop", "timeline"})
+    EXPECT_FALSE(view_.places.contains(button)) << button;
+}
+
+TEST_F(TransportTest, TheTimeLineShowsTheStrengthsAndThePresentFrame) {
+  show_result();
+  view_.timeline.add(3, 2, true);
+  view_.timeline.add(4, 1, true);
+  settled(draw_);
+  ImVec2 low, high;
+  ASSERT_TRUE(ImGuiFrames::box_of(view_.colours->plot, low, high));
+  const nlohmann::json line = view_.places["timeline"];
+  const float left = line[0], top = line[1], right = line[2], bottom = line[3];
+  const float frame = (right - left) / 16;
+  EXPECT_NEAR(low.x, left + 3 * frame, 2);
+  EXPECT_NEAR(high.x, left + 5 * frame, 2);
+  EXPECT_NEAR(low.y, top, 1) << "the strongest reaches to the top";
+  EXPECT_NEAR(high.y, bottom, 1);
+  ASSERT_TRUE(ImGuiFrames::box_of(view_.colours->accent, low, high));
+}
+
+class WideTest : public ViewerPanelsTest {
+ protected:
+  WideTest() : ViewerPanelsTest(1280, 800) {}
+};
+
+TEST_F(WideTest, AnErrorStaysUntilItIsPutAway) {
+  view_.errors = {"cannot read: a.oni (is it there?)",
+                  "cannot write: the disk is full: " + std::string(300, 'x')};
+  view_.notes = {"a gap of 3 frames"};
+  const Draw draw = [this] { draw_messages(view_); };
+  expect_fits(draw);
+  ImVec2 low, high;
+  EXPECT_TRUE(ImGuiFrames::box_of(view_.colours->error, low, high));
+  EXPECT_TRUE(ImGuiFrames::box_of(view_.colours->warning, low, high));
+  click("put error away", draw);
+  click("put notes away", draw);
+  EXPECT_EQ(view_.errors.size(), 1u);
+  EXPECT_TRUE(view_.notes.empty());
+}
+
+TEST_F(WideTest, TheHelpShowsEveryShortcutAndFits) {
+  bool open = true;
+  const Draw draw = [&] { draw_help(view_, open); };
+  settled(draw);
+  const ImGuiWindow* window = ImGui::FindWindowByName("Keyboard shortcuts");
+  ASSERT_NE(window, nullptr);
+  EXPECT_LE(window->ContentSize.x, window->Size.x);
+  EXPECT_LE(window->ContentSize.y, window->Size.y);
+  EXPECT_LE(window->Size.y, 800 * 0.94F);
+  EXPECT_TRUE(open);
+}
+
+TEST_F(WideTest, TheStateIsToldInTheMiddleOnlyWhileSomethingIsWrong) {
+  const Draw draw = [this] { draw_state_banner(view_, {0, 0}, {1280, 800}); };
+  ImVec2 low, high;
+  const auto shown = [&](Tone tone) {
+    settled(draw);
+    return ImGuiFrames::box_of(ImGui::GetColorU32(tone_colour(tone)), low, high);
+  };
+  EXPECT_TRUE(shown(Tone::quiet)) << "nothing is open";
+  view_.source.phase = SessionState::Phase::open;
+  view_.source.uri = "openni2";
+  view_.source.source.live = true;
+  view_.source.connection.connection = SourceState::Connection::waiting;
+  EXPECT_TRUE(shown(Tone::warning));
+  EXPECT_NEAR((low.x + high.x) / 2, 640, 3);
+  show_result();
+  view_.source.connection.connection = SourceState::Connection::lost;
+  EXPECT_TRUE(shown(Tone::bad));
+  EXPECT_LT(high.y, 400) << "not over the middle of the picture";
+  view_.source.connection.connection = SourceState::Connection::streaming;
+  for (const Tone tone : {Tone::quiet, Tone::warning, Tone::bad}) EXPECT_FALSE(shown(tone));
+}
+
+class PictureDrawingTest : public WideTest {
+ protected:
+  PictureDrawingTest() {
+    show_result();
+    picture_.layout({640, 480}, {640, 480});
+  }
+  void draw(float left, float right, std::optional<ValueRange> depth = {}) {
+    const PictureSide side{{0, 0}, {640, 480}, {left, 0}, {right, 480}, is_b_};
+    settled([&] { draw_over_picture(view_, side, picture_, depth); });
+  }
+  bool has(ImU32 colour) {
+    ImVec2 low, high;
+    return ImGuiFrames::box_of(colour, low, high);
+  }
+  PictureView picture_;
+  bool is_b_ = false;
+};
+
+TEST_F(PictureDrawingTest, TheFirstFixationIsMarkedInGreenWhereItIs) {
+  draw(0, 640);
+  ImVec2 low, high;
+  ASSERT_TRUE(ImGuiFrames::box_of(IM_COL32(88, 255, 120, 255), low, high));
+  EXPECT_NEAR((low.x + high.x) / 2, 200.5, 1);
+  EXPECT_NEAR((low.y + high.y) / 2, 100.5, 1);
+  state_.style.marks = state_.style.path = false;
+  draw(0, 640);
+  EXPECT_FALSE(has(IM_COL32(88, 255, 120, 255)));
+}
+
+TEST_F(PictureDrawingTest, LegendsHaveTheColoursOfMapAndDepth) {
+  const auto colour = [](cv::Vec3b c) { return IM_COL32(c[2], c[1], c[0], 255); };
+  const auto map = colour(colours_of(Palette::turbo)[static_cast<std::size_t>(255 * std::sqrt(0.5 / 32))]);
+  const auto depth = colour(depth_colour(Palette::viridis, 0.5 / 32));
+  state_.style.depth.palette = Palette::viridis;
+  draw(0, 640);
+  EXPECT_TRUE(has(map));
+  EXPECT_FALSE(has(depth));
+  state_.show_map = false;
+  draw(0, 640, ValueRange{500, 2000});
+  EXPECT_FALSE(has(map));
+  EXPECT_TRUE(has(depth));
+}
+
+TEST_F(PictureDrawingTest, WhereThereIsNoRoomNothingIsCutOff) {
+  state_.comparison = Comparison::split;
+  state_.style.marks = state_.style.path = false;
+  ImVec2 low, high;
+  for (const float right : {640.0F, 200.0F, 120.0F, 60.0F, 20.0F}) {
+    draw(0, right, ValueRange{500, 2000});
+    if (!ImGuiFrames::box_of(view_.colours->chip, low, high)) continue;
+    EXPECT_GE(low.x, 0) << right;
+    EXPECT_LE(high.x, right) << right;
+  }
+  is_b_ = true;
+  for (const float left : {0.0F, 400.0F, 560.0F, 620.0F}) {
+    draw(left, 640, ValueRange{500, 2000});
+    if (!ImGuiFrames::box_of(view_.colours->chip, low, high)) continue;
+    EXPECT_GE(low.x, left);
+    EXPECT_LE(high.x, 640);
+  }
+}
+
+TEST_F(PictureDrawingTest, WhyThereIsNoMapIsWrittenOnThePicture) {
+  auto result = std::make_shared<ViewResult>(*view_.result);
+  result->a.error = "level 6 has only 10x8 pixels: 640x480 image (try --levels 0..5)";
+  view_.result = result;
+  draw(0, 640);
+  EXPECT_TRUE(has(colours_of(Theme::dark).error));
+}
+
+}  // namespace
+}  // namespace saccade

@@ -1,0 +1,62 @@
+#include "ui/session/source_fit.hpp"
+
+#include <gmock/gmock.h>
+
+namespace saccade {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+SourceInfo source_of(cv::Size size, bool has_depth) {
+  SourceInfo source;
+  source.size = size;
+  source.has_depth = has_depth;
+  return source;
+}
+
+const SourceInfo kSensor = source_of({640, 480}, true), kCamera = source_of({640, 480}, false);
+
+TEST(SourceFit, WithDepthEverythingStays) {
+  ComparedSettings settings;
+  EXPECT_THAT(SourceFit().fit(settings, kSensor), IsEmpty());
+  EXPECT_EQ(settings, ComparedSettings());
+}
+
+TEST(SourceFit, WithoutDepthAModelOfTheImageIsShownUntilThereIsDepthAgain) {
+  ComparedSettings settings;
+  settings.b.model = "itti";
+  const ComparedSettings before = settings;
+  SourceFit fit;
+  EXPECT_THAT(fit.fit(settings, kCamera), ElementsAre(HasSubstr("symmetry3d needs depth")));
+  EXPECT_EQ(settings.a.model, "colour_symmetry2d");
+  EXPECT_EQ(settings.a.selector, Selector::wta);
+  EXPECT_EQ(settings.b.model, "itti") << "it needs none";
+  EXPECT_THAT(fit.fit(settings, kCamera), ElementsAre(HasSubstr("symmetry3d needs depth")))
+      << "another camera";
+  EXPECT_THAT(fit.fit(settings, kSensor), IsEmpty());
+  EXPECT_EQ(settings, before);
+}
+
+TEST(SourceFit, WhatWasChosenSinceStays) {
+  ComparedSettings settings;
+  SourceFit fit;
+  fit.fit(settings, kCamera);
+  settings.a.model = "radial2d";
+  fit.fit(settings, kSensor);
+  EXPECT_EQ(settings.a.model, "radial2d");
+  EXPECT_EQ(settings.a.selector, Selector::proto);
+}
+
+TEST(SourceFit, TellsOfTheSourceAndOfLevelsThatDoNotFit) {
+  ComparedSettings settings;
+  SourceInfo small = source_of({64, 48}, true);
+  small.notes = {"a gap"};
+  EXPECT_THAT(SourceFit().fit(settings, small), ElementsAre("a gap", HasSubstr("room for levels 0..2")));
+  settings.a.levels_chosen = true;
+  EXPECT_THAT(SourceFit().fit(settings, small), ElementsAre("a gap"));
+}
+
+}  // namespace
+}  // namespace saccade

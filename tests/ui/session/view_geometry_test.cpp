@@ -1,0 +1,129 @@
+// Where things are: zoom and pan, the time line, what is drawn over a picture.
+#include <gtest/gtest.h>
+
+#include "ui/session/overlay_shapes.hpp"
+#include "ui/session/picture_view.hpp"
+#include "ui/session/timeline.hpp"
+
+namespace saccade {
+namespace {
+
+TEST(PictureView, FitsAndFollowsThePanelUntilItIsMoved) {
+  PictureView view;
+  view.layout({1280, 960}, {640, 480});
+  EXPECT_DOUBLE_EQ(view.scale(), 2);
+  EXPECT_EQ(view.to_panel({0, 0}), cv::Point2d(0, 0));
+  view.layout({640, 960}, {640, 480});
+  EXPECT_DOUBLE_EQ(view.scale(), 1);
+  EXPECT_EQ(view.to_panel({320, 240}), cv::Point2d(320, 480));
+  view.pan({10, 0});
+  view.layout({1280, 960}, {640, 480});
+  EXPECT_DOUBLE_EQ(view.scale(), 1) << "its zoom is a person's now";
+  view.layout({1280, 960}, {320, 240});
+  EXPECT_TRUE(view.fitted()) << "another picture";
+}
+
+TEST(PictureView, ZoomKeepsWhatIsUnderTheMouse) {
+  PictureView view;
+  view.layout({800, 600}, {640, 480});
+  const cv::Point2d mouse(123, 456), before = view.to_picture(mouse);
+  for (const double factor : {1.5, 2.0, 0.7}) {
+    view.zoom(factor, mouse);
+    EXPECT_NEAR(cv::norm(view.to_picture(mouse) - before), 0, 1e-9);
+  }
+  const cv::Point2d at = view.to_picture({400, 300});
+  view.pan({20, -10});
+  EXPECT_NEAR(cv::norm(view.to_picture({420, 290}) - at), 0, 1e-9) << "the picture follows the hand";
+}
+
+TEST(PictureView, CannotBeLostOrZoomedWithoutEnd) {
+  PictureView view;
+  view.layout({800, 600}, {640, 480});
+  for (int i = 0; i < 100; ++i) view.zoom(2, {400, 300});
+  EXPECT_DOUBLE_EQ(view.scale(), PictureView::kLargestZoom);
+  for (int i = 0; i < 100; ++i) view.zoom(0.5, {400, 300});
+  EXPECT_GT(view.scale(), 0.3);
+  view.pan({1e6, 1e6});
+  const cv::Point2d middle = view.to_picture({400, 300});
+  EXPECT_GE(middle.x, 0);
+  EXPECT_GE(middle.y, 0);
+}
+
+TEST(Timeline, PlacesAndFramesAgree) {
+  for (const std::int64_t frames : {1, 7, 1000})
+    for (std::int64_t i = 0; i < frames; ++i) EXPECT_EQ(frame_at(frame_x(i, 500, frames), 500, frames), i);
+  EXPECT_EQ(frame_at(-5, 500, 10), 0);
+  EXPECT_EQ(frame_at(900, 500, 10), 9);
+  EXPECT_EQ(frame_at(5, 500, 0), 0);
+}
+
+TEST(Timeline, TicksDoNotTouch) {
+  EXPECT_EQ(tick_step(500, 10, 40), 1);
+  EXPECT_EQ(tick_step(500, 100, 40), 10);
+  EXPECT_EQ(tick_step(500, 15000, 40), 2000);
+  for (std::int64_t frames = 1; frames < 3000; frames += 7)
+    EXPECT_GE(static_cast<double>(tick_step(500, frames, 40)) * 500 / static_cast<double>(frames), 40);
+}
+
+TEST(Timeline, RemembersFramesAndScalesByTheCurrentOnes) {
+  Timeline line;
+  line.reset(4);
+  line.add(1, 2.5F, true);
+  line.add(3, 0.5F, true);
+  EXPECT_FLOAT_EQ(line.largest(), 2.5F);
+  line.age();
+  EXPECT_FLOAT_EQ(line.largest(), 2.5F) << "better old ones than none";
+  line.add(3, 1, true);
+  EXPECT_FLOAT_EQ(line.largest(), 1);
+  EXPECT_FALSE(line.entries()[0].seen);
+  EXPECT_TRUE(line.entries()[1].seen && !line.entries()[1].current);
+  line.add(9, 1, true);
+  EXPECT_EQ(line.entries().size(), 10u) << "a recording without a known length grows";
+  line.add(-1, 1, true);
+  line.add(std::int64_t{1} << 40, 1, true);
+  EXPECT_EQ(line.entries().size(), 10u) << "a wrong index costs no memory";
+}
+
+class ShapesTest : public ::testing::Test {
+ protected:
+  ShapesTest() {
+    computed_.result.attention.fixations = {{10, 20, 1, {}, {}}, {30, 40, 0.5F, {}, {}}};
+    computed_.outlines = {{2, {{30, 20}, {50, 20}, {50, 40}}}, {1, {{10, 5}, {30, 5}, {30, 15}}}};
+    view_.layout({128, 96}, {64, 48});
+  }
+  Computed computed_;
+  PictureView view_;
+};
+
+TEST_F(ShapesTest, FollowTheStyle) {
+  OverlayStyle none;
+  none.marks = none.path = none.outlines = false;
+  const OverlayShapes empty = overlay_shapes(computed_, none, view_, 1);
+  EXPECT_TRUE(empty.lines.empty() && empty.marks.empty());
+  none.path = true;
+  EXPECT_EQ(overlay_shapes(computed_, none, view_, 1).lines.size(), 2u) << "a line and its shadow";
+  EXPECT_EQ(overlay_shapes(computed_, {}, view_, 1).lines.size(), 6u);
+  EXPECT_EQ(overlay_shapes(computed_, {}, view_, 1).marks.size(), 2u);
+}
+
+TEST_F(ShapesTest, LieInTheMiddleOfTheirPixelsAndTheFirstIsOnTop) {
+  const OverlayShapes shapes = overlay_shapes(computed_, {}, view_, 1);
+  EXPECT_EQ(shapes.marks.back().text, "1");
+  EXPECT_EQ(shapes.marks.back().centre, cv::Point2f(41, 21)) << "scale 2: (20.5, 10.5)";
+  EXPECT_NE(shapes.marks.back().rim, shapes.marks.front().rim);
+  EXPECT_TRUE(shapes.lines.front().closed);
+  EXPECT_EQ(shapes.lines.front().points.front(), cv::Point2f(61, 41));
+  EXPECT_FALSE(shapes.lines.back().closed) << "the scan path lies over the outlines";
+}
+
+TEST_F(ShapesTest, AMarkIsFoundUnderTheMouse) {
+  OverlayShapes shapes = overlay_shapes(computed_, {}, view_, 1);
+  EXPECT_EQ(mark_under(shapes, {41, 21}), 0);
+  EXPECT_EQ(mark_under(shapes, {81, 61}), 1);
+  EXPECT_EQ(mark_under(shapes, {0, 0}), -1);
+  shapes.marks[0].centre = shapes.marks[1].centre;
+  EXPECT_EQ(mark_under(shapes, {41, 21}), 0) << "the one on top";
+}
+
+}  // namespace
+}  // namespace saccade

@@ -1,0 +1,291 @@
+// The viewer as a person uses it.
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <filesystem>
+#include <set>
+#include <thread>
+
+#include <opencv2/imgproc.hpp>
+
+#include "core/file.hpp"
+#include "core/png.hpp"
+#include "output/overlay.hpp"
+#include "sources/oni_source.hpp"
+#include "x_desktop.hpp"
+#include "x_program.hpp"
+
+namespace saccade {
+namespace {
+
+using Json = nlohmann::json;
+
+const std::string kTable = std::string(SACCADE_SOURCE_DIR) + "/recordings/table.oni";
+
+// What the picture shows, by its key; null while it shows nothing.
+Json shown(const Json& j, const char* key) {
+  return j.contains("shown") ? j["shown"].value(key, Json()) : Json();
+}
+
+class ViewerTest : public XProgramTest {
+ protected:
+  // The picture's part of a screenshot, without the bars beside it.
+  cv::Mat3b picture_of(const cv::Mat3b& shot) const {
+    const Json box = now()["places"]["picture"];
+    const cv::Rect area(cv::Point(box[0].get<int>(), box[1].get<int>()),
+                        cv::Point(box[2].get<int>(), box[3].get<int>()));
+    const double scale = std::min(area.width / 640.0, area.height / 480.0);
+    const cv::Size size(cvRound(640 * scale), cvRound(480 * scale));
+    return shot(cv::Rect(area.x + (area.width - size.width) / 2, area.y + (area.height - size.height) / 2,
+                         size.width, size.height) &
+                cv::Rect({}, shot.size()));
+  }
+
+  // What the viewer finds of the last time.
+  void keep_state(std::string_view json) const {
+    std::filesystem::create_directory(folder_ / "saccade");
+    write_file(in("saccade/viewer.json"), json);
+  }
+
+  void start_sensor(const char* device) {
+    ::setenv("SACCADE_VIRTUAL_DEVICE", device, 1);
+    start({"openni2"});
+    ::unsetenv("SACCADE_VIRTUAL_DEVICE");
+  }
+
+  // From one moment on the log does not grow, however long the machine takes to get there.
+  bool draws_nothing() const {
+    const auto frames = [this] { return now()["frames"].get<std::int64_t>(); };
+    for (int i = 0; i < 60; ++i) {
+      const std::int64_t before = frames();
+      std::this_thread::sleep_for(std::chrono::seconds(1));
+      if (frames() == before) return true;
+    }
+    return false;
+  }
+
+  void type_source(const std::string& uri) const {
+    hand("key ctrl+o");
+    hand("sleep 1");
+    // ImGui looks at these keys once a frame, and frames are slow here: they are held for a while.
+    hand("keydown ctrl keydown a sleep 0.5 keyup a keyup ctrl");
+    hand("type --delay 60 " + uri);
+    hand("keydown Return sleep 0.5 keyup Return");
+  }
+
+  // Records until so many frames are written; the file, which is a whole recording.
+  std::filesystem::path record_and_check(int frames) const {
+    hand("key r");
+    EXPECT_TRUE(
+        until([&](const Json& j) { return j["recording"] == true && j["recorded"]["frames"] >= frames; }));
+    hand("key r");
+    EXPECT_TRUE(until([](const Json& j) { return j["recording"] == false; }));
+    const Json recorded = now()["recorded"];
+    const std::filesystem::path file = recorded["file"].get<std::string>();
+    EXPECT_EQ(file.parent_path(), std::filesystem::canonical(folder_));
+    EXPECT_EQ(std::system(
+                  (std::string(SACCADE_PROGRAM) + " oni check '" + file.string() + "' >'" + in("check") + "'")
+                      .c_str()),
+              0);
+    OniSource source(file);
+    EXPECT_EQ(source.info().frame_count, recorded["frames"].get<std::int64_t>());
+    EXPECT_EQ(source.info().size, cv::Size(640, 480));
+    Frame frame;
+    EXPECT_EQ(source.read(frame, std::chrono::milliseconds(0)).status, ReadStatus::frame);
+    EXPECT_GT(cv::countNonZero(frame.depth_mm), 640 * 480 / 4);
+    EXPECT_FALSE(frame.colour.empty());
+    return file;
+  }
+
+  std::filesystem::path take_snapshot() const {
+    hand("key s");
+    EXPECT_TRUE(until([](const Json& j) { return j["snapshot"] != ""; }));
+    return now()["snapshot"].get<std::string>();
+  }
+
+  static double likeness(const cv::Mat3b& a, const cv::Mat3b& b) {
+    cv::Mat1b grey_a, grey_b;
+    cv::cvtColor(a, grey_a, cv::COLOR_BGR2GRAY);
+    cv::cvtColor(b, grey_b, cv::COLOR_BGR2GRAY);
+    cv::resize(grey_a, grey_a, {160, 120}, 0, 0, cv::INTER_AREA);
+    cv::resize(grey_b, grey_b, {160, 120}, 0, 0, cv::INTER_AREA);
+    cv::Mat1f result;
+    cv::matchTemplate(grey_a, grey_b, result, cv::TM_CCOEFF_NORMED);
+    return static_cast<double>(result(0));
+  }
+};
+
+TEST_F(ViewerTest, TheScreenshotShowsTheFrameAtAnyScale) {
+  OniSource source(kTable);
+  source.seek(5);
+  Frame frame;
+  source.read(frame, std::chrono::milliseconds(0));
+  keep_state(R"({"map": false, "marks": false, "path": false, "outlines": false})");
+  for (const char* scale : {"1", "2"}) {
+    ASSERT_EQ(run({kTable, "--start", "5", "--frames", "1", "--size", "1280x800", "--ui-scale", scale,
+                   "--screenshot", in("shot.png")}),
+              0);
+    const cv::Mat3b shot = decode_png(read_file(in("shot.png")));
+    ASSERT_EQ(shot.size(), cv::Size(1280, 800));
+    EXPECT_GT(likeness(picture_of(shot), frame.colour), 0.85);
+    EXPECT_EQ(now()["shown"]["index"], 5);
+    EXPECT_EQ(now()["shown"]["fixations"], 10);
+  }
+}
+
+TEST_F(ViewerTest, PlaysTunesComparesAndQuits) {
+  start({"--size", "1280x800"});  // without SOURCE: the bundled recording
+  EXPECT_EQ(now()["source"], std::filesystem::canonical(kTable).string());
+  EXPECT_TRUE(until([](const Json& j) { return j["position"] > 1; })) << "it plays";
+  hand("key space");
+  ASSERT_TRUE(until([](const Json& j) { return j["paused"] == true; }));
+
+  click("timeline", 0.6);  // of 16 frames: frame 9
+  EXPECT_TRUE(until([](const Json& j) { return shown(j, "index") == 9; }));
+  hand("key Right");
+  EXPECT_TRUE(until([](const Json& j) { return shown(j, "index") == 10; }));
+  hand("key Left");
+  hand("key Left");
+  EXPECT_TRUE(until([](const Json& j) { return shown(j, "index") == 8; }));
+
+  hand("key bracketright");
+  EXPECT_TRUE(until([](const Json& j) { return shown(j, "kernel") == 17 && shown(j, "index") == 8; }));
+  drag("kernel", 0.15, 0.3);
+  EXPECT_TRUE(until([](const Json& j) { return j["kernel"] > 30 && shown(j, "kernel") == j["kernel"]; }));
+  hand("key ctrl+z");
+  EXPECT_TRUE(until([](const Json& j) { return shown(j, "kernel") == 17; })) << "the drag was one step";
+  hand("key ctrl+shift+z");
+  EXPECT_TRUE(until([](const Json& j) { return shown(j, "kernel") > 30; }));
+  hand("key m");
+  EXPECT_TRUE(until([](const Json& j) { return shown(j, "model") == "combined"; }));
+
+  hand("key c");
+  EXPECT_TRUE(until([](const Json& j) { return j["comparison"] == 1 && shown(j, "compared") == true; }));
+  hand("key c");
+  EXPECT_TRUE(until([](const Json& j) { return j["comparison"] == 2 && j["places"].contains("divider"); }));
+  drag("picture", 0.5, 0.25);
+  EXPECT_TRUE(until([](const Json& j) { return j["divider"] < 0.3; }));
+  hand("search --onlyvisible --class saccade windowsize 1000 700");
+  EXPECT_TRUE(until([](const Json& j) { return j["window"] == Json{1000, 700}; }));
+
+  hand("key ctrl+q");
+  EXPECT_EQ(wait_for_exit(), 0);
+  start({});
+  EXPECT_EQ(now()["model"], "combined") << "what was set is there again";
+  EXPECT_EQ(now()["comparison"], 2);
+}
+
+// Keys, as a person who keeps what is seen presses them, and what is then in the folder.
+TEST_F(ViewerTest, RecordsAndTakesSnapshots) {
+  start({kTable});
+  record_and_check(8);
+  const std::filesystem::path snapshot = take_snapshot();
+  std::set<std::string> kinds;
+  for (const auto& entry : std::filesystem::directory_iterator(snapshot)) {
+    const std::string name = entry.path().filename();
+    kinds.insert(name == "settings.toml" ? name : name.substr(name.find('_')));
+    if (name.ends_with("overlay.png")) {
+      EXPECT_EQ(decode_png(read_file(entry.path())).size(), cv::Size(640, 480));
+    }
+  }
+  EXPECT_EQ(kinds, (std::set<std::string>{"_fixations.json", "_overlay.png", "_saliency.png",
+                                          "_saliency.tiff", "settings.toml"}));
+  EXPECT_TRUE(now()["errors"].empty());
+}
+
+TEST_F(ViewerTest, RecordsASensorAndPlaysItAgain) {
+  start_sensor("synthetic:table?noise=kinect&frames=90");
+  const std::filesystem::path file = record_and_check(5);
+  type_source(file.string());
+  EXPECT_TRUE(until([&](const Json& j) { return j["source"] == file.string() && shown(j, "index") >= 1; }))
+      << "the recording is played";
+  EXPECT_TRUE(now()["errors"].empty());
+}
+
+// What a person changes at a sensor, what undo makes of it, and a sensor that goes and comes back.
+TEST_F(ViewerTest, ASensorIsSetAndSetBack) {
+  keep_state(R"({"open": {"tuning": false, "display": false, "sensors": true}})");
+  start_sensor("synthetic:table?noise=kinect");
+  ASSERT_TRUE(until([](const Json& j) {
+    return j.value("mirror", true) == false && j["places"].contains("Mirror") && j["places"].contains("Mode");
+  }));
+  click("Mirror", 0.2);
+  EXPECT_TRUE(until([](const Json& j) { return j["mirror"] == true; }));
+  hand("key ctrl+z");
+  EXPECT_TRUE(until([](const Json& j) { return j["mirror"] == false; })) << "undone at the device too";
+  click("Registration", 0.2);
+  EXPECT_TRUE(until([](const Json& j) { return j["registration"] == false; }));
+
+  click("Mode", 0.5);
+  ASSERT_TRUE(until([](const Json& j) { return j["places"].contains("320x240@30"); }));
+  click("320x240@30", 0.5);
+  EXPECT_TRUE(until([](const Json& j) { return shown(j, "size") == Json{320, 240}; }));
+  EXPECT_TRUE(until([](const Json& j) { return j.value("registration", true) == false; }))
+      << "it holds for the next opening";
+  EXPECT_TRUE(now()["errors"].empty());
+}
+
+TEST_F(ViewerTest, ALostSensorIsTakenUpAgain) {
+  start_sensor("synthetic:table?size=160x120&loss_after=20&back_after_ms=3000");
+  EXPECT_TRUE(until([](const Json& j) { return j["connection"] == 2 && j["losses"] == 1; })) << "lost";
+  EXPECT_TRUE(until([](const Json& j) { return j["connection"] == 0 && shown(j, "index") > 20; })) << "back";
+  EXPECT_TRUE(now()["errors"].empty());
+}
+
+TEST_F(ViewerTest, AFileThatIsDroppedIsOpened) {
+  start({"synthetic:sphere", "--paused"});
+  EXPECT_TRUE(XDesktop(display(), "saccade").drop(kTable));
+  EXPECT_TRUE(until([](const Json& j) { return j["source"] == kTable && j.contains("shown"); }));
+}
+
+TEST_F(ViewerTest, MinimisedItComputesButDoesNotDraw) {
+  start({kTable});
+  XDesktop desktop(display(), "saccade");
+  desktop.minimise();
+  EXPECT_TRUE(draws_nothing());
+  const std::int64_t processed = now()["processed"];
+  desktop.restore();
+  EXPECT_TRUE(until([&](const Json& j) { return j["processed"] > processed + 1; })) << "it went on";
+}
+
+TEST_F(ViewerTest, AnErrorLeavesTheWindowAlive) {
+  start({kTable, "--paused"});
+  ASSERT_TRUE(until([](const Json& j) { return j["errors"].empty(); }));
+  type_source("/no/such.oni");
+  ASSERT_TRUE(until([](const Json& j) { return j["errors"].size() == 1; }));
+  EXPECT_NE(now()["errors"][0].get<std::string>().find("/no/such.oni"), std::string::npos);
+  type_source("synthetic:sphere");
+  EXPECT_TRUE(until([](const Json& j) { return j["errors"].empty() && j.contains("shown"); }));
+}
+
+TEST_F(ViewerTest, ShowsADraftOfWhatTakesLongAndGoesOnDrawing) {
+  start({kTable, "--paused", "--kernel", "61"});
+  const auto whole = [](int kernel) {
+    return [kernel](const Json& j) { return shown(j, "kernel") == kernel && shown(j, "draft") == false; };
+  };
+  ASSERT_TRUE(until(whole(61)));
+  hand("key bracketleft");
+  ASSERT_TRUE(until(whole(59)));
+  const std::int64_t generation = now()["generation"];
+  int with_draft = 0;
+  for (const Json& j : lines())
+    if (j["generation"] == generation && shown(j, "generation") == generation && shown(j, "draft") == true)
+      ++with_draft;
+  EXPECT_GE(with_draft, 3) << "frames of the window between the draft and the whole";
+}
+
+TEST_F(ViewerTest, IdleItDrawsNothing) {
+  start({kTable, "--paused"});
+  EXPECT_TRUE(draws_nothing());
+}
+
+TEST_F(ViewerTest, WithoutADisplayItSaysSoInOneLine) {
+  EXPECT_EQ(run({kTable}, false), 1);
+  const auto bytes = read_file(in("err"));
+  const std::string err(bytes.begin(), bytes.end());
+  EXPECT_EQ(std::count(err.begin(), err.end(), '\n'), 1) << err;
+  EXPECT_NE(err.find("no display"), std::string::npos) << err;
+}
+
+}  // namespace
+}  // namespace saccade

@@ -1,0 +1,12 @@
+#include "ui/drawing/gl_graphics.hpp"
+
+#include "ui/drawing/gl_cloud_picture.hpp"
+#include "ui/drawing/gl_texture.hpp"
+
+namespace saccade {
+
+std::unique_ptr<PictureTexture> GlGraphics::make_texture() { return std::make_unique<GlTexture>(); }
+
+std::unique_ptr<CloudPicture> GlGraphics::make_cloud_picture() { return std::make_unique<GlCloudPicture>(); }
+
+}  // namespace saccade

@@ -1,0 +1,90 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <utility>
+
+#include "ui/panels/picture_drawing.hpp"
+#include "ui/panels/probe_panel.hpp"
+#include "ui/panels/sensor_panel.hpp"
+#include "ui/panels/view_context.hpp"
+
+namespace saccade {
+
+// The parts of the window. A panel is one small file with a free function, or a class if it keeps something,
+// that draws into ImGui's current window. How to add one: ui/README.md.
+
+void draw_top_bar(ViewContext& view);
+void draw_tuning_panel(ViewContext& view);
+void draw_display_panel(ViewContext& view);
+void draw_transport(ViewContext& view);
+void draw_messages(ViewContext& view);
+void draw_performance_panel(ViewContext& view);
+
+/// What is open and how it does.
+SourceFacts source_facts(const ViewContext& view);
+
+/// In the middle of the window, from `low` to `high`, and large: that there is nothing to see yet and why, or
+/// that the sensor is lost. Nothing while all is well.
+void draw_state_banner(const ViewContext& view, ImVec2 low, ImVec2 high);
+
+/// Windows over the others; `open` is what makes them appear and is cleared when they are put away.
+void draw_help(ViewContext& view, bool& open);
+
+/// The side bar with its sections.
+class Sidebar {
+ public:
+  /// As SensorPanel.
+  Sidebar(DeviceWatch::List list_sensors, std::function<void()> wake)
+      : sensors_(std::move(list_sensors), std::move(wake)) {}
+
+  void draw(ViewContext& view);
+  SensorPanel& sensors() { return sensors_; }
+
+ private:
+  void draw_panel(ViewContext& view, SidebarPanel section);
+  ProbePanel probe_;
+  SensorPanel sensors_;
+};
+
+/// What to open: a path, a recent source, a folder to look through.
+class OpenDialog {
+ public:
+  void show();
+  void draw(ViewContext& view);
+
+ private:
+  bool opening_ = false, focus_ = false;
+  char text_[1024] = "";
+};
+
+/// Saves and loads settings as TOML.
+class SettingsDialog {
+ public:
+  void show();
+  void draw(ViewContext& view);
+
+ private:
+  bool opening_ = false;
+  char path_[1024] = "";
+  std::string error_;
+};
+
+/// The picture: one, two side by side, or two divided.
+class PicturePanel {
+ public:
+  PicturePanel();
+  ~PicturePanel();
+  void draw(ViewContext& view);
+  void fit();
+  /// Another source is opened.
+  void forget();
+
+ private:
+  struct Layers;
+  void draw_side(ViewContext& view, const PictureSide& side);
+  void handle_mouse(ViewContext& view, const PictureSide& side);
+  std::unique_ptr<Layers> layers_;
+};
+
+}  // namespace saccade

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "pipeline/ledger.hpp"
+#include "ui/session/stage_history.hpp"
+
+namespace saccade {
+
+/// What the performance panel tells besides the stage times.
+struct PerformanceFacts {
+  Ledger ledger{};
+  int workers = 1;                          ///< threads that compute
+  std::string simd{};                       ///< the instruction set of the fast operator, as asked for
+  double source_rate_hz = 0;                ///< nominal; 0 = not known
+  std::optional<double> window_last_ms{};   ///< what the window's last frame took to draw
+  std::optional<double> window_worst_ms{};  ///< the longest so far
+};
+
+/// The panel: frame rate and latency, the stages' times (last, median, 95th percentile) with a stacked plot
+/// over the last frames, and the ledger of frames. Within an ImGui window, on the thread that draws.
+void draw_performance(const StageHistory& history, const PerformanceFacts& facts,
+                      StageHistory::Clock::time_point now);
+
+/// The end of a plot's axis that reaches to at least `largest` > 0: 1, 2 or 5 times a power of ten.
+double axis_end(double largest);
+
+}  // namespace saccade

@@ -1,0 +1,79 @@
+#include "ui/panels/probe_panel.hpp"
+
+#include <algorithm>
+
+#include "saliency/params.hpp"
+
+namespace saccade {
+namespace {
+
+// The settings' parameters, with as many levels as the frame has room for.
+std::optional<Symmetry3dParams> params_for(const Settings& settings, cv::Size size) {
+  Symmetry3dParams params = settings;
+  params.last_level = std::min(params.last_level, deepest_level(size));
+  params.first_level = std::min(params.first_level, params.last_level);
+  if (params.last_level < 0) return std::nullopt;
+  return params;
+}
+
+}  // namespace
+
+// The levels' weights in the master map; they are of the whole maps, so they are kept while only the pixel
+// changes. Empty = all 1.
+std::vector<double> ProbePanel::weights_of(const Computed& computed, const Symmetry3dParams& params,
+                                           const Source& source) {
+  const std::vector<cv::Mat1f>& maps = computed.result.maps.levels;
+  const auto levels = static_cast<std::size_t>(params.last_level - params.first_level + 1);
+  if (params.normalisation == LevelNormalisation::none || maps.size() != levels) return {};
+  if (weighed_ && weighed_->serial == source.serial && weighed_->b == source.b) return weights_;
+  weights_.clear();
+  for (const cv::Mat1f& map : maps) {
+    cv::Mat1d exact;
+    map.convertTo(exact, CV_64F);
+    weights_.push_back(reference::level_weight(exact, params.normalisation));
+  }
+  weighed_ = source;
+  return weights_;
+}
+
+void ProbePanel::probe_pixel(const ViewContext& view, const Source& source) {
+  const Computed& computed = source.b ? view.result->b : view.result->a;
+  const Frame& frame = view.result->frame();
+  const auto params = params_for(computed.settings, frame.size());
+  shown_.reset();
+  source_ = source;
+  if (!params) return;
+  ProbeShown shown;
+  shown.probe = probe(frame.depth_mm, frame.intrinsics, *params, source.pixel.y, source.pixel.x,
+                      weights_of(computed, *params, source));
+  shown.camera = frame.intrinsics;
+  const cv::Mat1f& map = computed.result.maps.master;
+  shown.saliency = map.size() == frame.size() ? static_cast<double>(map(source.pixel)) : 0;
+  shown.model = computed.settings.model;
+  shown.levels_apply = shown.model == "symmetry3d";
+  shown_ = std::move(shown);
+}
+
+void ProbePanel::draw(ViewContext& view) {
+  if (view.pointer) {
+    pixel_ = view.pointer;
+    on_b_ = view.pointer_on_b;
+  }
+  const bool inside = view.result && pixel_ && cv::Rect({}, view.result->frame().size()).contains(*pixel_);
+  if (!inside) {
+    shown_.reset();
+    source_.reset();
+  } else {
+    const Source source{view.result->serial, on_b_ && view.result->compared, *pixel_};
+    if (source_ != source) probe_pixel(view, source);
+    view.wants.levels = view.state.settings.a.normalisation != LevelNormalisation::none ||
+                        view.state.settings.b.normalisation != LevelNormalisation::none;
+  }
+  draw_probe(shown_, state_);
+  if (shown_)
+    view.over_picture = [this](ImDrawList& list, const PicturePlace& place) {
+      if (shown_) draw_footprints(list, *shown_, state_, place);
+    };
+}
+
+}  // namespace saccade

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "ui/panels/probe_drawing.hpp"
+#include "ui/panels/view_context.hpp"
+
+namespace saccade {
+
+/// The probe in the side bar. It follows the mouse over the picture and stays at the last pixel when the
+/// mouse leaves it, so that one can read the numbers and choose a level.
+class ProbePanel {
+ public:
+  void draw(ViewContext& view);
+
+ private:
+  // What the probe was made of.
+  struct Source {
+    std::int64_t serial;
+    bool b;
+    cv::Point pixel;
+    bool operator==(const Source&) const = default;
+  };
+  void probe_pixel(const ViewContext& view, const Source& source);
+  std::vector<double> weights_of(const Computed& computed, const Symmetry3dParams& params,
+                                 const Source& source);
+
+  ProbePanelState state_;
+  std::optional<cv::Point> pixel_;
+  bool on_b_ = false;
+  std::optional<Source> source_;
+  std::optional<ProbeShown> shown_;
+  // Of the last computation that needed them:
+  std::optional<Source> weighed_;
+  std::vector<double> weights_;
+};
+
+}  // namespace saccade

@@ -1,0 +1,156 @@
+#include "ui/panels/sensor_panel.hpp"
+
+#include <unistd.h>
+
+#include <cstdlib>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+#include "ui/panels/panels.hpp"
+#include "ui/panels/widgets.hpp"
+#include "ui/session/sensor_settings_sync.hpp"
+#include "ui/session/snapshot.hpp"
+
+namespace saccade {
+namespace {
+
+SensorMode mode_of(const SourceInfo& source) {
+  return {source.size.width, source.size.height, cvRound(source.rate_hz)};
+}
+
+// Not on the thread that draws: a network disk may let one wait.
+std::optional<std::uint64_t> free_space(const std::filesystem::path& folder) {
+  std::error_code code;
+  const std::filesystem::space_info space = std::filesystem::space(folder, code);
+  return code ? std::nullopt : std::optional<std::uint64_t>(space.available);
+}
+
+std::filesystem::path folder_for_files() {
+  const std::filesystem::path here = std::filesystem::current_path();
+  const char* home = std::getenv("HOME");
+  return ::access(here.c_str(), W_OK) != 0 && home != nullptr ? home : here;
+}
+
+}  // namespace
+
+SensorPanel::SensorPanel(DeviceWatch::List list_sensors, std::function<void()> wake)
+    : folder_(folder_for_files()), wake_(std::move(wake)), devices_(std::move(list_sensors), wake_) {}
+
+SensorPanel::~SensorPanel() {
+  if (tapped_ != nullptr) tapped_->set_tap({});
+}
+
+void SensorPanel::toggle_recording(ViewContext& view) {
+  using Phase = RecordingStatus::Phase;
+  const Phase phase = recording_->status().phase;
+  if (phase == Phase::recording) return end_recording();
+  if (phase != Phase::idle || view.source.phase != SessionState::Phase::open) return;
+  tapped_ = &view.session.playback();
+  OniWriterOptions options;
+  options.rate_hz = view.source.source.rate_hz;
+  options.expect_colour = view.source.source.live;
+  const auto file = unused_path(folder_, "recording", ".oni", std::chrono::system_clock::now());
+  try {
+    recording_->start(file, options);
+    tapped_->set_tap([recording = recording_](const Frame& frame) { recording->offer(frame); });
+    recording_reported_ = false;
+    view.notify("Recording to " + file.string() +
+                (view.playback.paused ? "; paused, so no frames come yet" : ""));
+  } catch (const Error& error) {
+    view.errors.emplace_back(error.what());
+  }
+}
+
+void SensorPanel::end_recording() {
+  if (tapped_ != nullptr) tapped_->set_tap({});
+  recording_->stop();
+}
+
+void SensorPanel::poll(ViewContext& view) {
+  take_snapshot_result(view);
+  if (snapshot_due_) snapshot(view);
+  view.recording = recording_->status();
+  if (recording_reported_ || view.recording.phase != RecordingStatus::Phase::idle) return;
+  recording_reported_ = true;
+  end_recording();  // it may have ended by itself
+  if (view.recording.error.empty())
+    view.notify(fmt::format("Recorded {} frames: {}", view.recording.frames, view.recording.file.string()));
+  else
+    view.errors.push_back(view.recording.error);
+}
+
+void SensorPanel::snapshot(ViewContext& view) {
+  if (!view.result || writing_.valid()) return;
+  snapshot_due_ = view.result->draft;  // the whole map is on its way
+  if (snapshot_due_) return;
+  snapshot_ = "writing the snapshot ...";
+  snapshot_error_.clear();
+  OverlayStyle style = view.state.style;
+  if (!view.state.show_map) style.map.opacity = 0;
+  writing_ = std::async(std::launch::async, [folder = folder_, result = view.result, style, wake = wake_] {
+    struct Wake {  // also when the disk is full
+      const std::function<void()>& call;
+      ~Wake() { call(); }
+    } const when_done{wake};
+    return write_snapshot(folder, *result, style, std::chrono::system_clock::now());
+  });
+}
+
+void SensorPanel::take_snapshot_result(ViewContext& view) {
+  if (!writing_.valid() || writing_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
+  snapshot_.clear();
+  try {
+    view.snapshot = writing_.get().string();
+    snapshot_ = "snapshot in " + view.snapshot;
+    view.notify("Snapshot: " + view.snapshot);
+  } catch (const std::exception& error) {
+    snapshot_error_ = error.what();
+    view.errors.push_back(snapshot_error_);
+  }
+}
+
+void SensorPanel::look_at_disk() {
+  constexpr std::chrono::seconds kPeriod{2};
+  const auto now = std::chrono::steady_clock::now();
+  if (looking_.valid()) {
+    if (looking_.wait_for(std::chrono::seconds(0)) == std::future_status::ready) free_bytes_ = looking_.get();
+  } else if (now - looked_ > kPeriod) {
+    looked_ = now;
+    looking_ = std::async(std::launch::async, [folder = folder_] { return free_space(folder); });
+  }
+}
+
+SensorFacts SensorPanel::facts(const ViewContext& view) {
+  SensorFacts facts;
+  facts.source = source_facts(view);
+  const DeviceWatch::Seen seen = devices_.seen();
+  facts.devices = seen.devices;
+  facts.devices_error = seen.error;
+  facts.modes = view.session.sensor_modes();
+  facts.mode = mode_of(view.source.source);
+  facts.values = view.session.sensor_values();
+  facts.folder = folder_.string();
+  facts.free_bytes = free_bytes_;
+  facts.recording = view.recording;
+  facts.snapshot = snapshot_;
+  facts.snapshot_error = snapshot_error_;
+  return facts;
+}
+
+void SensorPanel::draw(ViewContext& view) {
+  look_at_disk();
+  const SensorFacts now = facts(view);
+  const SensorActions actions = draw_sensors(now, std::chrono::steady_clock::now(), view.fonts.large);
+  for (const ItemPlace& place : actions.places) note_place(view, place);
+  if (actions.toggle_recording) toggle_recording(view);
+  if (actions.snapshot) snapshot(view);
+  // The settings say what is wanted of the sensor; the viewer asks it for what has changed.
+  SensorSettings& wanted = view.state.settings.a.sensor;
+  if (actions.request) take_request(wanted, *actions.request, now.values);
+  if (actions.mode) wanted.mode = actions.mode;
+  if (actions.open) view.open(*actions.open);
+}
+
+}  // namespace saccade

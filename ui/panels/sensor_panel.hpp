@@ -1,0 +1,61 @@
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <functional>
+#include <future>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "ui/panels/sensor_drawing.hpp"
+#include "ui/panels/view_context.hpp"
+#include "ui/session/device_watch.hpp"
+#include "ui/session/recording_session.hpp"
+
+namespace saccade {
+
+/// Sensors, recording and snapshots in the side bar. Files go to the folder in which the program was started,
+/// or to the user's own where that cannot be written.
+class SensorPanel {
+ public:
+  /// `list_sensors` may throw; it is called on a thread of its own. `wake` is called on any thread when there
+  /// is something new to draw.
+  SensorPanel(DeviceWatch::List list_sensors, std::function<void()> wake);
+  ~SensorPanel();
+  SensorPanel(const SensorPanel&) = delete;
+  SensorPanel& operator=(const SensorPanel&) = delete;
+
+  /// Whether the section is open; it looks for sensors only then. Each frame, also when it is closed.
+  void set_open(bool open) { devices_.set_active(open); }
+  void draw(ViewContext& view);
+
+  /// Tells what became of recordings and snapshots. Each frame, whether the section is seen or not.
+  void poll(ViewContext& view);
+
+  void toggle_recording(ViewContext& view);
+  /// Ends a recording: its source is to be closed.
+  void end_recording();
+  void snapshot(ViewContext& view);
+
+ private:
+  SensorFacts facts(const ViewContext& view);
+  void take_snapshot_result(ViewContext& view);
+  void look_at_disk();
+
+  const std::filesystem::path folder_;
+  const std::function<void()> wake_;
+  // Shared with the capture thread, which may still be in it when a recording or the viewer ends.
+  const std::shared_ptr<RecordingSession> recording_ = std::make_shared<RecordingSession>();
+  PlaybackControls* tapped_ = nullptr;
+  DeviceWatch devices_;
+  std::future<std::optional<std::uint64_t>> looking_;
+  std::chrono::steady_clock::time_point looked_{};
+  std::optional<std::uint64_t> free_bytes_;     // of the folder's disk
+  std::future<std::filesystem::path> writing_;  // the snapshot on its way to the disk
+  bool snapshot_due_ = false;                   // as soon as the map is whole
+  std::string snapshot_, snapshot_error_;
+  bool recording_reported_ = true;  // how the last one ended
+};
+
+}  // namespace saccade

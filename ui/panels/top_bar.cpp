@@ -1,0 +1,105 @@
+#include <filesystem>
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include "ui/panels/panels.hpp"
+#include "ui/panels/widgets.hpp"
+
+namespace saccade {
+namespace {
+
+using Phase = SessionState::Phase;
+
+std::string short_name(const std::string& uri) {
+  if (uri.find(':') != std::string::npos && !std::filesystem::exists(uri)) return uri;
+  const auto path = std::filesystem::path(uri);
+  return path.has_filename() ? path.filename().string() : uri;
+}
+
+// What is open and how it is doing, in plain words.
+std::string source_line(const ViewContext& view) {
+  const SessionState& s = view.source;
+  const auto now = StageHistory::Clock::now();
+  if (s.phase == Phase::ended && s.error.empty()) return "No more frames";
+  if (s.phase != Phase::open || s.source.live) {
+    std::string line = headline(source_facts(view), now).text;
+    if (s.phase == Phase::open && view.captured_hz > 0 && !view.playback.paused &&
+        s.connection.connection == SourceState::Connection::streaming)
+      line += fmt::format(", {:.1f} computed", view.history.rate_hz(now));
+    return line;
+  }
+  const std::string size = fmt::format("{} × {}", s.source.size.width, s.source.size.height);
+  return s.source.frame_count ? fmt::format("{}, {} frames", size, *s.source.frame_count) : size;
+}
+
+ImVec4 state_colour(const ViewContext& view) {
+  const SessionState& s = view.source;
+  if (s.phase == Phase::open && !s.source.live) return tone_colour(Tone::quiet);
+  return tone_colour(headline(source_facts(view), StageHistory::Clock::now()).tone);
+}
+
+float width_of(const std::vector<std::string>& names, const ViewContext& view) {
+  float width = 0;
+  for (const std::string& name : names)
+    width += ImGui::CalcTextSize(name.c_str()).x + 2 * ImGui::GetStyle().FramePadding.x + view.px(1);
+  return width;
+}
+
+}  // namespace
+
+void draw_top_bar(ViewContext& view) {
+  static const std::vector<std::string> centres = {"Picture", "Points", "Both"};
+  static const std::vector<std::string> comparisons = {"A", "A | B", "Split"};
+  if (ImGui::Button("Open…")) view.act(Action::open_source);
+  explain(
+      with_key("Open a recording, a folder or a sensor; or drop one onto the window", Action::open_source));
+  note_place(view, "open");
+  ImGui::SameLine(0, view.px(14));
+
+  const float gap = view.px(14);
+  const float theme_width = ImGui::CalcTextSize("Light").x + 2 * ImGui::GetStyle().FramePadding.x;
+  const float help_width = ImGui::CalcTextSize("?").x + 2 * ImGui::GetStyle().FramePadding.x;
+  const float right =
+      width_of(centres, view) + width_of(comparisons, view) + theme_width + help_width + 4 * gap;
+  const float name_right = ImGui::GetWindowWidth() - right - ImGui::GetStyle().WindowPadding.x;
+  const ImVec2 corner = ImGui::GetCursorScreenPos();
+  ImGui::PushClipRect(corner, {ImGui::GetWindowPos().x + name_right, corner.y + ImGui::GetFrameHeight()},
+                      true);
+  ImGui::AlignTextToFramePadding();
+  ImGui::PushFont(view.fonts.bold);
+  ImGui::TextUnformatted(view.source.uri.empty() ? "Saccade" : short_name(view.source.uri).c_str());
+  ImGui::PopFont();
+  explain(view.source.uri);
+  ImGui::SameLine(0, view.px(10));
+  ImGui::PushStyleColor(ImGuiCol_Text, state_colour(view));
+  ImGui::TextUnformatted(source_line(view).c_str());
+  ImGui::PopStyleColor();
+  explain(view.source.connection.text);
+  if (view.recording.phase == RecordingStatus::Phase::recording) {
+    const auto s = static_cast<int>(view.recording.seconds);
+    ImGui::SameLine(0, view.px(14));
+    ImGui::TextColored(as_vec4(view.colours->error), "%s",
+                       fmt::format("Recording {}:{:02}", s / 60, s % 60).c_str());
+    explain(view.recording.file.string());
+  }
+  ImGui::PopClipRect();
+
+  ImGui::SameLine(name_right + gap);
+  int centre = static_cast<int>(view.state.centre);
+  if (segments(view, "centre", centres, centre)) view.state.centre = static_cast<Centre>(centre);
+  ImGui::SameLine(0, gap);
+  int comparison = static_cast<int>(view.state.comparison);
+  if (segments(view, "comparison", comparisons, comparison))
+    view.state.comparison = static_cast<Comparison>(comparison);
+  explain(with_key("Compare two models or kernels on the same frame", Action::next_comparison));
+  ImGui::SameLine(0, gap);
+  if (ImGui::Button(view.state.theme == Theme::dark ? "Light" : "Dark", {theme_width, 0}))
+    view.act(Action::toggle_theme);
+  explain(with_key("Dark or light", Action::toggle_theme));
+  ImGui::SameLine(0, gap / 2);
+  if (ImGui::Button("?")) view.act(Action::show_help);
+  explain(with_key("Keyboard shortcuts", Action::show_help));
+}
+
+}  // namespace saccade

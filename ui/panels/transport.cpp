@@ -1,0 +1,156 @@
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include "ui/panels/panels.hpp"
+#include "ui/panels/widgets.hpp"
+
+namespace saccade {
+namespace {
+
+std::string speed_name(double speed) { return speed > 0 ? fmt::format("{:g}×", speed) : "max"; }
+
+void draw_speed(ViewContext& view) {
+  ImGui::SetNextItemWidth(view.px(78));
+  if (ImGui::BeginCombo("##speed", speed_name(view.playback.speed).c_str())) {
+    for (const double speed : play_speeds())
+      if (ImGui::Selectable(speed > 0 ? speed_name(speed).c_str() : "as fast as possible",
+                            speed == view.playback.speed))
+        view.session.playback().set_speed(speed);
+    ImGui::EndCombo();
+  }
+  explain(with_key("Speed", Action::slower) + ", " + key_name(Action::faster));
+}
+
+// A button that does what a shortcut does; `gap` stands before it.
+void action_button(ViewContext& view, const char* name, Icon icon, Action action, const std::string& text,
+                   float gap, bool lit = false) {
+  if (gap > 0) ImGui::SameLine(0, gap);
+  ImGui::PushID(name);
+  if (icon_button(view, "##button", icon, lit, with_key(text, action))) view.act(action);
+  ImGui::PopID();
+  note_place(view, name);
+}
+
+void draw_keeping(ViewContext& view) {
+  const bool recording = view.recording.phase == RecordingStatus::Phase::recording;
+  action_button(view, "record", Icon::record, Action::record,
+                recording ? "Stop recording" : "Record to an .oni file", view.px(10), recording);
+  action_button(view, "snapshot", Icon::camera, Action::snapshot,
+                "Snapshot: overlay, saliency map and fixations", view.px(3));
+}
+
+void draw_buttons(ViewContext& view) {
+  const bool paused = view.playback.paused, live = view.source.source.live, loop = view.playback.loop;
+  const float gap = view.px(3);
+  if (!live) {
+    action_button(view, "first", Icon::first, Action::first_frame, "First frame", 0);
+    action_button(view, "back", Icon::step_back, Action::step_back, "One frame back", gap);
+  }
+  action_button(view, "play", paused ? Icon::play : Icon::pause, Action::play_pause,
+                paused ? "Play" : "Pause", live ? 0 : gap);
+  if (live) return draw_keeping(view);
+  action_button(view, "on", Icon::step_on, Action::step_on, "One frame on", gap);
+  action_button(view, "last", Icon::last, Action::last_frame, "Last frame", gap);
+  action_button(view, "loop", Icon::loop, Action::toggle_loop, loop ? "Loop is on" : "Loop is off",
+                view.px(10), loop);
+  draw_keeping(view);
+  ImGui::SameLine(0, view.px(10));
+  draw_speed(view);
+}
+
+std::string position_text(const ViewContext& view) {
+  if (!view.result) return "";
+  const Frame& frame = view.result->frame();
+  const std::string of =
+      view.source.source.frame_count ? fmt::format(" of {}", *view.source.source.frame_count) : "";
+  return fmt::format("frame {}{}   {:.2f} s", frame.index, of, static_cast<double>(frame.timestamp_us) / 1e6);
+}
+
+// The strength of the first fixation of the frames seen, a bar or a line each.
+void draw_strengths(const ViewContext& view, ImVec2 corner, ImVec2 size, std::int64_t frames) {
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  const float largest = view.timeline.largest();
+  if (!(largest > 0)) return;
+  const auto width = static_cast<double>(size.x);
+  const float bar = std::max(1.0F, size.x / static_cast<float>(frames) - view.px(1));
+  for (std::size_t i = 0; i < view.timeline.entries().size(); ++i) {
+    const Timeline::Entry& entry = view.timeline.entries()[i];
+    if (!entry.seen || static_cast<std::int64_t>(i) >= frames) continue;
+    const float x = corner.x + static_cast<float>(frame_x(static_cast<std::int64_t>(i), width, frames));
+    const float height = std::min(1.0F, entry.strength / largest) * size.y;
+    draw.AddRectFilled({x - bar / 2, corner.y + size.y - std::max(height, 1.0F)},
+                       {x + bar / 2, corner.y + size.y},
+                       entry.current ? view.colours->plot : view.colours->plot_old);
+  }
+}
+
+void draw_ticks(const ViewContext& view, ImVec2 corner, float width, std::int64_t frames) {
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  const float label = ImGui::CalcTextSize(fmt::format("{}", frames).c_str()).x + view.px(16);
+  const std::int64_t step = tick_step(static_cast<double>(width), frames, static_cast<double>(label));
+  for (std::int64_t i = 0; i < frames; i += step) {
+    const float x = corner.x + static_cast<float>(frame_x(i, static_cast<double>(width), frames));
+    const std::string text = fmt::format("{}", i);
+    draw.AddText({x - ImGui::CalcTextSize(text.c_str()).x / 2, corner.y}, view.colours->dim_text,
+                 text.c_str());
+  }
+}
+
+void draw_line(ViewContext& view, std::int64_t frames) {
+  const ImVec2 corner = ImGui::GetCursorScreenPos();
+  const float width = ImGui::GetContentRegionAvail().x, height = view.px(34);
+  ImGui::InvisibleButton("##timeline", {width, height + ImGui::GetFontSize() + view.px(3)});
+  view.places["timeline"] = {corner.x, corner.y, corner.x + width, corner.y + height};
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  draw.AddRectFilled(corner, {corner.x + width, corner.y + height}, ImGui::GetColorU32(ImGuiCol_FrameBg),
+                     view.px(4));
+  draw_strengths(view, corner, {width, height}, frames);
+  draw_ticks(view, {corner.x, corner.y + height + view.px(3)}, width, frames);
+  const std::int64_t under =
+      frame_at(static_cast<double>(ImGui::GetIO().MousePos.x - corner.x), static_cast<double>(width), frames);
+  if (ImGui::IsItemActive() && (ImGui::IsItemActivated() || ImGui::GetIO().MouseDelta.x != 0) &&
+      under != view.playback.position)
+    view.session.playback().seek(under);
+  if (ImGui::IsItemHovered()) {
+    const auto& entries = view.timeline.entries();
+    const auto place = static_cast<std::size_t>(under);
+    const bool seen = place < entries.size() && entries[place].seen;
+    ImGui::SetTooltip("%s",
+                      (seen ? fmt::format("frame {}, first fixation {:.2f}", under, entries[place].strength)
+                            : fmt::format("frame {}, not seen yet", under))
+                          .c_str());
+  }
+  if (!view.result) return;
+  const float x =
+      corner.x + static_cast<float>(frame_x(view.result->frame().index, static_cast<double>(width), frames));
+  draw.AddLine({x, corner.y - view.px(2)}, {x, corner.y + height + view.px(2)}, view.colours->accent,
+               view.px(2));
+}
+
+}  // namespace
+
+void draw_transport(ViewContext& view) {
+  draw_buttons(view);
+  const std::string text = position_text(view);
+  ImGui::SameLine(0, view.px(16));
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextUnformatted(text.c_str());
+  if (view.source.source.live) return;
+  const auto seen = static_cast<std::int64_t>(view.timeline.entries().size());
+  const std::int64_t frames = view.source.source.frame_count.value_or(seen);
+  const char* caption = "strength of the first fixation";
+  const float width = ImGui::CalcTextSize(caption).x;
+  ImGui::SameLine();
+  if (ImGui::GetContentRegionAvail().x > width + view.px(10)) {
+    ImGui::SameLine(ImGui::GetWindowWidth() - width - ImGui::GetStyle().WindowPadding.x);
+    ImGui::TextDisabled("%s", caption);
+  } else {
+    ImGui::NewLine();
+  }
+  if (frames > 0) draw_line(view, frames);
+}
+
+}  // namespace saccade

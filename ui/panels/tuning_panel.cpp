@@ -1,0 +1,111 @@
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include "models/model.hpp"
+#include "ui/panels/panels.hpp"
+#include "ui/panels/widgets.hpp"
+#include "ui/session/command_line.hpp"
+
+namespace saccade {
+namespace {
+
+void draw_kernel(ViewContext& view, Settings& s) {
+  named_row("Kernel", "Size of the window around each pixel, at every level");
+  if (ImGui::SliderInt("##kernel", &s.kernel, 3, 127, "%d px", ImGuiSliderFlags_AlwaysClamp))
+    s.kernel = std::clamp(s.kernel | 1, 3, 127);  // the window is odd
+  explain(with_key("Drag, or Ctrl+click to type", Action::kernel_down) + ", " + key_name(Action::kernel_up));
+  note_place(view, "kernel");
+}
+
+void draw_levels(ViewContext& view, Settings& s) {
+  // The default levels are cut to what the frames have room for; that is what is shown.
+  const Computed* shown = view.result ? &view.result->a : nullptr;
+  int first = s.first_level, last = s.last_level;
+  if (!s.levels_chosen && shown != nullptr) last = std::min(last, shown->settings.last_level);
+  named_row("Levels", "Pyramid levels that are added; 0 is full size, each next one half of the last");
+  if (ImGui::DragIntRange2("##levels", &first, &last, 0.05F, 0, 8, "from %d", "to %d",
+                           ImGuiSliderFlags_AlwaysClamp)) {
+    s.first_level = first;
+    s.last_level = last;
+    s.levels_chosen = true;
+  }
+}
+
+void draw_operator(ViewContext& view, Settings& s) {
+  ImGui::BeginDisabled(!needs_depth(s.model));
+  draw_kernel(view, s);
+  draw_levels(view, s);
+  named_row("Length scale",
+            "Unit of the distances: relative to the window, or millimetres as the paper's authors");
+  int scale = static_cast<int>(s.length_scale);
+  if (segments(view, "scale", choices_of("length-scale"), scale))
+    s.length_scale = static_cast<LengthScale>(scale);
+  named_row("Normalise", "Each level's map before they are added");
+  int normalisation = static_cast<int>(s.normalisation);
+  if (segments(view, "normalise", choices_of("normalisation"), normalisation))
+    s.normalisation = static_cast<LevelNormalisation>(normalisation);
+  ImGui::EndDisabled();
+}
+
+void draw_attention(ViewContext& view, Settings& s) {
+  named_row("Selector", "proto: one point for each object; wta: the paper's winner-take-all network");
+  int selector = static_cast<int>(s.selector);
+  if (segments(view, "selector", choices_of("selector"), selector))
+    s.selector = static_cast<Selector>(selector);
+  named_row("Fixations", "Points asked for in each frame");
+  ImGui::SliderInt("##fixations", &s.fixations, 1, 30, "%d");
+  s.fixations = std::clamp(s.fixations, 1, 1000);
+  if (s.selector != Selector::wta) return;
+  named_row("Focus", "Size of the focus of attention");
+  auto foa = static_cast<float>(s.foa);
+  if (ImGui::SliderFloat("##foa", &foa, 8, 256, "%.0f px"))
+    s.foa = std::clamp(static_cast<double>(foa), 1.0, 1000.0);
+}
+
+void draw_buttons(ViewContext& view) {
+  ImGui::BeginDisabled(!view.can_undo);
+  if (ImGui::Button("Undo")) view.act(Action::undo);
+  note_place(view, "undo");
+  ImGui::EndDisabled();
+  explain(with_key("Undo", Action::undo));
+  ImGui::SameLine();
+  ImGui::BeginDisabled(!view.can_redo);
+  if (ImGui::Button("Redo")) view.act(Action::redo);
+  note_place(view, "redo");
+  ImGui::EndDisabled();
+  explain(with_key("Redo", Action::redo));
+  ImGui::SameLine();
+  if (ImGui::Button("Reset")) copy_compared(Settings{}, view.state.edited());
+  explain("The default settings; can be undone");
+  ImGui::SameLine();
+  if (ImGui::Button("File…")) view.act(Action::save_settings);
+  explain(with_key("Save or load settings as TOML", Action::save_settings));
+  if (ImGui::Button("Copy command line")) view.act(Action::copy_command);
+  explain(with_key("The command that computes what is shown without a window", Action::copy_command));
+  note_place(view, "copy");
+}
+
+}  // namespace
+
+void draw_tuning_panel(ViewContext& view) {
+  if (view.state.comparing()) {
+    int side = view.state.edit_b ? 1 : 0;
+    named_row("Settings of");
+    if (segments(view, "side", {"  A  ", "  B  "}, side)) view.state.edit_b = side == 1;
+    ImGui::SameLine(0, view.px(10));
+    if (ImGui::Button("Swap")) view.act(Action::swap_sides);
+    explain(with_key("Swap A and B", Action::swap_sides));
+  }
+  Settings& s = view.state.edited();
+  named_row("Model", "What gives each pixel its saliency");
+  word_combo("##model", choices_of("model"), s.model);
+  note_place(view, "model");
+  draw_operator(view, s);
+  draw_attention(view, s);
+  ImGui::Dummy({0, view.px(2)});
+  draw_buttons(view);
+}
+
+}  // namespace saccade

@@ -1,0 +1,114 @@
+#include "ui/panels/widgets.hpp"
+
+#include <algorithm>
+
+namespace saccade {
+namespace {
+
+void triangle(ImDrawList& draw, ImVec2 c, float r, float direction, unsigned colour) {
+  draw.AddTriangleFilled({c.x - direction * r * 0.8F, c.y - r}, {c.x - direction * r * 0.8F, c.y + r},
+                         {c.x + direction * r, c.y}, colour);
+}
+
+void bar(ImDrawList& draw, float x, ImVec2 c, float r, float width, unsigned colour) {
+  draw.AddRectFilled({x - width / 2, c.y - r}, {x + width / 2, c.y + r}, colour);
+}
+
+void draw_icon(ImDrawList& draw, Icon icon, ImVec2 c, float r, unsigned colour) {
+  const float thin = r * 0.45F;
+  switch (icon) {
+    case Icon::play:
+      return triangle(draw, c, r, 1, colour);
+    case Icon::pause:
+      bar(draw, c.x - r * 0.5F, c, r, thin, colour);
+      return bar(draw, c.x + r * 0.5F, c, r, thin, colour);
+    case Icon::step_on:
+      triangle(draw, {c.x + r * 0.25F, c.y}, r * 0.85F, 1, colour);
+      return bar(draw, c.x - r * 0.85F, c, r * 0.85F, thin * 0.8F, colour);
+    case Icon::step_back:
+      triangle(draw, {c.x - r * 0.25F, c.y}, r * 0.85F, -1, colour);
+      return bar(draw, c.x + r * 0.85F, c, r * 0.85F, thin * 0.8F, colour);
+    case Icon::last:
+      triangle(draw, {c.x - r * 0.25F, c.y}, r * 0.85F, 1, colour);
+      return bar(draw, c.x + r * 0.85F, c, r * 0.85F, thin * 0.8F, colour);
+    case Icon::first:
+      triangle(draw, {c.x + r * 0.25F, c.y}, r * 0.85F, -1, colour);
+      return bar(draw, c.x - r * 0.85F, c, r * 0.85F, thin * 0.8F, colour);
+    case Icon::loop:
+      draw.PathArcTo(c, r * 0.85F, 0.6F, 5.6F, 24);
+      draw.PathStroke(colour, 0, r * 0.28F);
+      draw.AddTriangleFilled({c.x + r * 0.25F, c.y - r * 0.35F}, {c.x + r * 1.15F, c.y - r * 0.25F},
+                             {c.x + r * 0.8F, c.y - r * 1.1F}, colour);
+      return;
+    case Icon::record:
+      return draw.AddCircleFilled(c, r * 0.9F, colour);
+    case Icon::camera:
+      draw.AddRectFilled({c.x - r * 0.45F, c.y - r}, {c.x + r * 0.45F, c.y}, colour, r * 0.2F);
+      draw.AddRect({c.x - r * 1.2F, c.y - r * 0.6F}, {c.x + r * 1.2F, c.y + r * 0.9F}, colour, r * 0.25F, 0,
+                   r * 0.3F);
+      return draw.AddCircle({c.x, c.y + r * 0.15F}, r * 0.4F, colour, 0, r * 0.28F);
+  }
+}
+
+}  // namespace
+
+bool icon_button(ViewContext& view, const char* id, Icon icon, bool lit, const std::string& text) {
+  const float side = ImGui::GetFrameHeight();
+  const ImVec2 corner = ImGui::GetCursorScreenPos();
+  const bool pressed = ImGui::Button(id, {side * 1.15F, side});
+  const ThemeColours& c = *view.colours;
+  draw_icon(*ImGui::GetWindowDrawList(), icon, {corner.x + side * 0.575F, corner.y + side / 2}, side * 0.22F,
+            !lit                   ? c.text
+            : icon == Icon::record ? c.error
+                                   : c.accent);
+  explain(text);
+  return pressed;
+}
+
+bool segments(ViewContext& view, const char* id, const std::vector<std::string>& names, int& chosen) {
+  bool changed = false;
+  ImGui::PushID(id);
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {view.px(1), ImGui::GetStyle().ItemSpacing.y});
+  for (int i = 0; i < static_cast<int>(names.size()); ++i) {
+    if (i > 0) ImGui::SameLine();
+    const bool on = i == chosen;
+    if (on) {
+      ImGui::PushStyleColor(ImGuiCol_Button, as_vec4((view.colours->accent & 0x00ffffff) | 0x50000000));
+      ImGui::PushStyleColor(ImGuiCol_ButtonHovered,
+                            as_vec4((view.colours->accent & 0x00ffffff) | 0x60000000));
+    }
+    if (ImGui::Button(names[static_cast<std::size_t>(i)].c_str()) && !on) {
+      chosen = i;
+      changed = true;
+    }
+    if (on) ImGui::PopStyleColor(2);
+  }
+  ImGui::PopStyleVar();
+  ImGui::PopID();
+  return changed;
+}
+
+bool word_combo(const char* id, const std::vector<std::string>& words, std::string& word) {
+  bool changed = false;
+  if (!ImGui::BeginCombo(id, word.c_str(), ImGuiComboFlags_HeightLargest)) return false;
+  for (const std::string& choice : words)
+    if (ImGui::Selectable(choice.c_str(), choice == word) && choice != word) {
+      word = choice;
+      changed = true;
+    }
+  ImGui::EndCombo();
+  return changed;
+}
+
+std::string with_key(const std::string& text, Action action) {
+  const std::string key = key_name(action);
+  return key.empty() ? text : text + " (" + key + ")";
+}
+
+void note_place(ViewContext& view, const char* name) { note_place(view, place_of_item(name)); }
+
+void note_place(ViewContext& view, const ItemPlace& place) {
+  view.places[place.name] = {place.low.x, place.low.y, place.high.x, place.high.y};
+}
+
+}  // namespace saccade

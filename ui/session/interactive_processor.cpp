@@ -1,0 +1,165 @@
+#include "ui/session/interactive_processor.hpp"
+
+#include <sys/resource.h>
+
+#include <utility>
+#include <vector>
+
+namespace saccade {
+namespace {
+
+constexpr int kNice = 5;  // computation steps back when the window has something to do
+
+bool same_frame(const Frame& a, const Frame& b) {
+  return a.index == b.index && a.timestamp_us == b.timestamp_us && a.size() == b.size();
+}
+
+bool same_camera(const Intrinsics& a, const Intrinsics& b) {
+  return a.fx == b.fx && a.fy == b.fy && a.cx == b.cx && a.cy == b.cy;
+}
+
+Intrinsics camera_of(const Frame& frame, const Settings& settings) {
+  return settings.intrinsics.value_or(frame.intrinsics);
+}
+
+}  // namespace
+
+// Results that nobody holds any more, to be filled again.
+class InteractiveProcessor::Pool {
+ public:
+  static std::shared_ptr<ViewResult> take(const std::shared_ptr<Pool>& pool) {
+    std::unique_ptr<ViewResult> result;
+    {
+      const std::lock_guard lock(pool->mutex_);
+      if (!pool->spare_.empty()) {
+        result = std::move(pool->spare_.back());
+        pool->spare_.pop_back();
+      }
+    }
+    if (!result) result = std::make_unique<ViewResult>();
+    return {result.release(), [pool](ViewResult* r) {
+              std::unique_ptr<ViewResult> owned(r);
+              const std::lock_guard lock(pool->mutex_);
+              pool->spare_.push_back(std::move(owned));
+            }};
+  }
+
+ private:
+  std::mutex mutex_;
+  std::vector<std::unique_ptr<ViewResult>> spare_;
+};
+
+InteractiveProcessor::InteractiveProcessor(ComputeRequest request, std::int64_t generation, Hooks hooks)
+    : hooks_(std::move(hooks)),
+      request_(std::move(request)),
+      generation_(generation),
+      results_(std::make_shared<Pool>()) {}
+
+InteractiveProcessor::~InteractiveProcessor() = default;
+
+void InteractiveProcessor::set_compute_request(ComputeRequest request, std::int64_t generation) {
+  const std::lock_guard lock(mutex_);
+  request_ = std::move(request);
+  generation_ = generation;
+  if (slow_) workers_->interrupt();
+}
+
+void InteractiveProcessor::stop() {
+  const std::lock_guard lock(mutex_);
+  stopped_ = true;
+  if (workers_) workers_->interrupt();
+}
+
+void InteractiveProcessor::start(const Settings& settings) {
+  ::setpriority(PRIO_PROCESS, 0, kNice);  // of this thread, and so of those that it starts
+  const std::lock_guard lock(mutex_);
+  workers_ = std::make_unique<WorkerPool>(worker_count(settings));
+  for (std::unique_ptr<ModelRunner>* runner : {&a_, &b_, &draft_a_, &draft_b_})
+    *runner = std::make_unique<ModelRunner>(*workers_);
+}
+
+// The newest request; false if they ask for nothing that is not published yet.
+bool InteractiveProcessor::take_request(const Frame& frame, ComputeRequest& request,
+                                        std::int64_t& generation) {
+  const std::lock_guard lock(mutex_);
+  request = request_;
+  generation = generation_;
+  return !stopped_ && (!last_ || last_->generation != generation || !same_frame(last_->frame(), frame));
+}
+
+// From here on what is computed may be given up; false if it is to be given up already.
+bool InteractiveProcessor::begin_slow(std::int64_t generation) {
+  const std::lock_guard lock(mutex_);
+  slow_ = generation == generation_;
+  return slow_;
+}
+
+void InteractiveProcessor::end_slow() {
+  const std::lock_guard lock(mutex_);
+  slow_ = false;
+  if (!stopped_) workers_->resume();
+}
+
+void InteractiveProcessor::process(Result& result) {
+  hooks_.begun();
+  ComputeRequest request;
+  std::int64_t generation = 0;
+  while (take_request(result.frame, request, generation)) {
+    if (!workers_) start(request.a);
+    const bool known = known_ && same_frame(known_->frame(), result.frame) &&
+                       same_camera(known_->frame().intrinsics, camera_of(result.frame, request.a));
+    if (!known) known_.reset();
+    const auto slow = [&](const Settings& settings, Computed ViewResult::*side) {
+      return draft_of(settings, result.frame.size()) &&
+             !(known_ && has_maps(*known_.*side, settings, request.wants));
+    };
+    try {
+      const bool any_slow =
+          slow(request.a, &ViewResult::a) || (request.b && slow(*request.b, &ViewResult::b));
+      if (any_slow && (!last_ || last_->generation != generation)) {
+        const auto draft = compute(result, request, generation, Part::draft);
+        known_ = draft;
+        hooks_.publish(draft);
+      }
+      if (any_slow && !begin_slow(generation)) continue;
+      const auto whole = compute(result, request, generation, Part::whole);
+      result.times = whole->a.result.times;
+      known_ = last_ = whole;
+      hooks_.publish(whole);
+    } catch (const WorkerPool::Interrupted&) {  // there are newer request, or none at all
+    }
+    end_slow();
+  }
+  hooks_.ended();
+}
+
+std::shared_ptr<ViewResult> InteractiveProcessor::compute(const Result& result, const ComputeRequest& request,
+                                                          std::int64_t generation, Part part) {
+  const std::shared_ptr<ViewResult> view = Pool::take(results_);
+  view->draft = part == Part::draft;
+  view->generation = generation;
+  view->compared = request.b.has_value();
+  Result& a = view->a.result;
+  copy_frame(result.frame, a.frame);
+  a.frame.intrinsics = camera_of(result.frame, request.a);
+  a.times = result.times;
+  a.captured_at = result.captured_at;
+  const auto fill = [&](ModelRunner& whole, ModelRunner& draft, Settings settings, const Computed* known,
+                        Computed& out) {
+    const bool has = known != nullptr && has_maps(*known, settings, request.wants);
+    const auto reduced = view->draft && !has ? draft_of(settings, a.frame.size()) : std::nullopt;
+    out.draft = reduced.has_value();
+    (reduced ? draft : whole).compute(reduced.value_or(settings), request.wants, known, out);
+  };
+  fill(*a_, *draft_a_, request.a, known_ ? &known_->a : nullptr, view->a);
+  if (request.b) {
+    Result& b = view->b.result;
+    b.frame = a.frame;
+    b.times = {};
+    b.captured_at = a.captured_at;
+    fill(*b_, *draft_b_, *request.b, known_ && known_->compared ? &known_->b : nullptr, view->b);
+  }
+  return view;
+}
+
+}  // namespace saccade

@@ -1,0 +1,53 @@
+#include "ui/session/overlay_shapes.hpp"
+
+namespace saccade {
+namespace {
+
+constexpr Rgba kRest{255, 255, 255, 235}, kFirst{88, 255, 120, 255}, kShadow{0, 0, 0, 150};
+
+cv::Point2f place(const PictureView& view, double col, double row) {
+  // The middle of a pixel is half a pixel from its corner.
+  return view.to_panel({col + 0.5, row + 0.5});
+}
+
+// A light line on a dark one is seen on any picture.
+void add_line(OverlayShapes& shapes, std::vector<cv::Point2f> points, bool closed, float width, Rgba colour) {
+  shapes.lines.push_back({points, closed, width + 1.5F, kShadow});
+  shapes.lines.push_back({std::move(points), closed, width, colour});
+}
+
+}  // namespace
+
+OverlayShapes overlay_shapes(const Computed& computed, const OverlayStyle& style, const PictureView& view,
+                             double unit) {
+  OverlayShapes shapes;
+  const auto width = static_cast<float>(1.4 * unit);
+  if (style.outlines)
+    for (const Outline& outline : computed.outlines) {
+      std::vector<cv::Point2f> points;
+      for (const cv::Point& p : outline.points) points.push_back(place(view, p.x, p.y));
+      add_line(shapes, std::move(points), true, width, outline.rank == 1 ? kFirst : kRest);
+    }
+  const auto& fixations = computed.result.attention.fixations;
+  if (style.path && fixations.size() > 1) {
+    std::vector<cv::Point2f> path;
+    for (const Fixation& f : fixations) path.push_back(place(view, f.col, f.row));
+    add_line(shapes, std::move(path), false, width, {255, 255, 255, 190});
+  }
+  if (style.marks)
+    for (std::size_t i = fixations.size(); i-- > 0;)
+      shapes.marks.push_back({place(view, fixations[i].col, fixations[i].row), static_cast<float>(10 * unit),
+                              i == 0 ? kFirst : kRest, std::to_string(i + 1)});
+  return shapes;
+}
+
+int mark_under(const OverlayShapes& shapes, cv::Point2d pointer) {
+  for (std::size_t i = shapes.marks.size(); i-- > 0;) {
+    const OverlayShapes::Mark& mark = shapes.marks[i];
+    if (cv::norm(cv::Point2d(mark.centre) - pointer) <= static_cast<double>(mark.radius))
+      return static_cast<int>(shapes.marks.size() - 1 - i);
+  }
+  return -1;
+}
+
+}  // namespace saccade

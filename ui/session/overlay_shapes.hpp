@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <opencv2/core.hpp>
+
+#include "ui/session/picture_view.hpp"
+#include "ui/session/view_result.hpp"
+
+namespace saccade {
+
+/// Red, green, blue, opacity.
+struct Rgba {
+  std::uint8_t r = 255, g = 255, b = 255, a = 255;
+  bool operator==(const Rgba&) const = default;
+};
+
+/// What is drawn over a picture, in pixels of the panel, in the order of drawing.
+struct OverlayShapes {
+  struct Line {
+    std::vector<cv::Point2f> points;
+    bool closed = false;
+    float width = 1;
+    Rgba colour;
+  };
+  struct Mark {
+    cv::Point2f centre;
+    float radius = 10;
+    Rgba rim;
+    std::string text;
+  };
+  std::vector<Line> lines;
+  std::vector<Mark> marks;  ///< filled dark, the first fixation last
+};
+
+/// Outlines, scan path and numbered fixations of a result as the style asks for them, where `view` shows
+/// them. `unit` is the size of a pixel of a screen of usual density. A pure function.
+OverlayShapes overlay_shapes(const Computed& computed, const OverlayStyle& style, const PictureView& view,
+                             double unit);
+
+/// The index of the fixation whose mark is under `pointer`, the one on top if there are several; -1 = none.
+int mark_under(const OverlayShapes& shapes, cv::Point2d pointer);
+
+}  // namespace saccade

@@ -1,0 +1,42 @@
+#include "ui/session/picture_view.hpp"
+
+#include <algorithm>
+
+namespace saccade {
+
+void PictureView::layout(cv::Size2d panel, cv::Size2d picture) {
+  panel_ = {std::max(panel.width, 1.0), std::max(panel.height, 1.0)};
+  if (picture != picture_) fitted_ = true;
+  picture_ = {std::max(picture.width, 1.0), std::max(picture.height, 1.0)};
+  if (fitted_) {
+    scale_ = fitting_scale();
+    centre_ = {picture_.width / 2, picture_.height / 2};
+  }
+}
+
+void PictureView::zoom(double factor, cv::Point2d about) {
+  const cv::Point2d held = to_picture(about);
+  const double smallest = std::min(fitting_scale(), 1.0) / 2;
+  scale_ = std::clamp(scale_ * factor, smallest, kLargestZoom);
+  centre_ = held - (about - panel_centre()) / scale_;
+  fitted_ = false;
+  keep_in_sight();
+}
+
+void PictureView::pan(cv::Point2d drag) {
+  centre_ -= drag / scale_;
+  fitted_ = false;
+  keep_in_sight();
+}
+
+double PictureView::fitting_scale() const {
+  return std::min({panel_.width / picture_.width, panel_.height / picture_.height, kLargestZoom});
+}
+
+// The middle of the panel stays on the picture, so that it cannot get lost.
+void PictureView::keep_in_sight() {
+  centre_.x = std::clamp(centre_.x, 0.0, picture_.width);
+  centre_.y = std::clamp(centre_.y, 0.0, picture_.height);
+}
+
+}  // namespace saccade

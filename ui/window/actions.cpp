@@ -1,0 +1,176 @@
+// What the shortcuts and the buttons do.
+#include <imgui.h>
+
+#include "ui/session/command_line.hpp"
+#include "ui/window/viewer.hpp"
+
+namespace saccade {
+
+void Viewer::handle_keys() {
+  const bool typing = ImGui::GetIO().WantTextInput || ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId);
+  for (const Window::KeyPress& press : window_.take_keys()) {
+    const auto action = action_of(press.key, press.ctrl, press.shift);
+    if (action && (!typing || *action == Action::quit)) act(*action);
+  }
+}
+
+void Viewer::act(Action action) {
+  if (act_on_playback(action) || act_on_tuning(action) || act_on_picture(action)) return;
+  act_on_window(action);
+}
+
+bool Viewer::act_on_playback(Action action) {
+  constexpr std::int64_t kJump = 10, kEnd = std::int64_t{1} << 40;
+  PlaybackControls& playback = session_.playback();
+  const PlaybackState now = playback.state();
+  switch (action) {
+    case Action::play_pause:
+      playback.toggle();
+      return true;
+    case Action::step_back:
+      playback.step(-1);
+      return true;
+    case Action::step_on:
+      playback.step(1);
+      return true;
+    case Action::jump_back:
+      playback.step(-kJump);
+      return true;
+    case Action::jump_on:
+      playback.step(kJump);
+      return true;
+    case Action::first_frame:
+      playback.seek(0);
+      return true;
+    case Action::last_frame:
+      playback.seek(view_.source.source.frame_count.value_or(kEnd) - 1);
+      return true;
+    case Action::slower:
+      playback.set_speed(next_speed(now.speed, -1));
+      return true;
+    case Action::faster:
+      playback.set_speed(next_speed(now.speed, 1));
+      return true;
+    case Action::toggle_loop:
+      playback.set_loop(!now.loop);
+      return true;
+    default:
+      return false;
+  }
+}
+
+bool Viewer::act_on_tuning(Action action) {
+  Settings& s = state_.edited();
+  switch (action) {
+    case Action::kernel_down:
+      s.kernel = next_kernel(s.kernel, -1);
+      return true;
+    case Action::kernel_up:
+      s.kernel = next_kernel(s.kernel, 1);
+      return true;
+    case Action::next_model:
+      next_model(s, 1);
+      return true;
+    case Action::previous_model:
+      next_model(s, -1);
+      return true;
+    case Action::next_selector:
+      s.selector = s.selector == Selector::proto ? Selector::wta : Selector::proto;
+      return true;
+    case Action::undo:
+    case Action::redo:
+      history_.change(state_.settings);
+      action == Action::undo ? history_.undo() : history_.redo();
+      state_.settings = history_.now();
+      return true;
+    case Action::swap_sides:
+      swap_sides(state_.settings);
+      return true;
+    case Action::copy_command:
+      copy_command();
+      return true;
+    case Action::save_settings:
+      settings_dialog_.show();
+      return true;
+    default:
+      return false;
+  }
+}
+
+bool Viewer::act_on_picture(Action action) {
+  OverlayStyle& style = state_.style;
+  const auto next = [](auto value, int count) {
+    return static_cast<decltype(value)>((static_cast<int>(value) + 1) % count);
+  };
+  switch (action) {
+    case Action::toggle_background:
+      style.background = next(style.background, 2);
+      return true;
+    case Action::toggle_map:
+      state_.show_map = !state_.show_map;
+      return true;
+    case Action::toggle_marks:
+      style.marks = !style.marks;
+      return true;
+    case Action::toggle_path:
+      style.path = !style.path;
+      return true;
+    case Action::toggle_outlines:
+      style.outlines = !style.outlines;
+      return true;
+    case Action::next_palette:
+      next_palette(style.map);
+      return true;
+    case Action::fit_picture:
+      picture_.fit();
+      return true;
+    case Action::next_comparison:
+      state_.comparison = next(state_.comparison, 3);
+      return true;
+    case Action::next_centre:
+      state_.centre = next(state_.centre, 3);
+      return true;
+    default:
+      return false;
+  }
+}
+
+void Viewer::act_on_window(Action action) {
+  switch (action) {
+    case Action::toggle_sidebar:
+      state_.sidebar = !state_.sidebar;
+      break;
+    case Action::toggle_theme:
+      state_.theme = state_.theme == Theme::dark ? Theme::light : Theme::dark;
+      break;
+    case Action::open_source:
+      open_dialog_.show();
+      break;
+    case Action::snapshot:
+      sidebar_.sensors().snapshot(view_);
+      break;
+    case Action::record:
+      sidebar_.sensors().toggle_recording(view_);
+      break;
+    case Action::show_help:
+      help_ = true;
+      break;
+    case Action::quit:
+      window_.close();
+      break;
+    default:
+      break;
+  }
+}
+
+// For both sides while comparing: a line each.
+void Viewer::copy_command() {
+  const bool recorded = !view_.source.source.live && view_.result;
+  const std::int64_t index = recorded ? view_.result->frame().index : -1;
+  std::string text = run_command_line(view_.source.uri, state_.settings.a, index);
+  if (state_.comparing()) text += "\n" + run_command_line(view_.source.uri, state_.settings.b, index);
+  ImGui::SetClipboardText(text.c_str());
+  view_.notify("Copied: " + text);
+}
+
+}  // namespace saccade

@@ -1,0 +1,285 @@
+#include "ui/window/viewer.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include <imgui.h>
+
+#include "core/error.hpp"
+#include "core/png.hpp"
+#include "ui/session/sensor_settings_sync.hpp"
+
+namespace saccade {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr int kFramesAfterEvent = 3;  // ImGui's layout settles with the second, hovering with the third
+constexpr double kSlowRefresh_s = 0.25, kIdle_s = 60, kHeartbeat_s = 0.025;
+
+bool same_request(const ComputeRequest& x, const ComputeRequest& y) {
+  return same_settings(x.a, y.a) && x.b.has_value() == y.b.has_value() &&
+         (!x.b || same_settings(*x.b, *y.b)) && x.wants.levels == y.wants.levels &&
+         x.wants.normals == y.wants.normals;
+}
+
+}  // namespace
+
+Viewer::Viewer(ViewState state, ViewerOptions options, Session::Open open_function,
+               DeviceWatch::List list_sensors)
+    : state_(std::move(state)),
+      options_(std::move(options)),
+      window_("Saccade", options_.size.value_or(state_.window)),
+      session_(
+          std::move(open_function),
+          [this] {
+            woken_ = true;
+            Window::wake();
+          },
+          ComputeRequest{state_.settings.a, {}, {}}),
+      view_(state_, session_, graphics_),
+      history_(state_.settings),
+      sidebar_(std::move(list_sensors), [] { Window::wake(); }),
+      sent_{state_.settings.a, {}, {}} {
+  share_source(state_.settings);
+  view_.act = [this](Action action) { act(action); };
+  view_.open = [this](const std::string& uri) { open(uri); };
+  if (!options_.log.empty()) log_.emplace(options_.log);
+  scale_ui();
+  if (options_.paused) session_.playback().pause();
+  if (!options_.source.uri.empty()) {
+    const OpenRequest first = options_.source;
+    open(first.uri);
+  }
+}
+
+void Viewer::run() {
+  while (!window_.should_close()) {
+    window_.wait(frames_due_ == 0 ? idle_s() : 0);
+    const auto begin = Clock::now();
+    if (stopped_) window_.close();
+    const bool event = window_.take_event();
+    const bool woken = woken_.exchange(false);
+    if (event)
+      frames_due_ = kFramesAfterEvent;
+    else if (woken)
+      frames_due_ = std::max(frames_due_, view_.playback.paused ? kFramesAfterEvent : 1);
+    else if (refresh_ || computing())
+      frames_due_ = std::max(frames_due_, 1);
+    poll();
+    if (window_.hidden()) frames_due_ = 0;
+    if (frames_due_ == 0) continue;
+    --frames_due_;
+    draw_frame();
+    const double busy_ms = std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
+    ++frames_;
+    drawn_at_ = begin;
+    view_.busy_ms = busy_ms;
+    view_.longest_ms = std::max(view_.longest_ms, busy_ms);
+    log_frame(busy_ms);
+  }
+  state_.window = window_.size();
+  fit_.restore(state_.settings);
+}
+
+void Viewer::stop() noexcept {
+  stopped_ = true;
+  Window::wake();
+}
+
+double Viewer::idle_s() const {
+  if (!computing()) return refresh_ ? kSlowRefresh_s : kIdle_s;
+  const double since_s = std::chrono::duration<double>(Clock::now() - drawn_at_).count();
+  return std::max(kHeartbeat_s - since_s, 1e-3);
+}
+
+// While it computes the window shows that it lives, however long that takes.
+bool Viewer::computing() const { return view_.source.computing || awaits_result(); }
+
+// A wish was sent and what it makes of the frame is on its way.
+bool Viewer::awaits_result() const {
+  return view_.source.phase == SessionState::Phase::open && view_.result &&
+         (view_.result->generation < generation_ || view_.result->draft);
+}
+
+// What the session has for us; cheap, and done while the window is hidden too.
+void Viewer::poll() {
+  view_.source = session_.state();
+  view_.playback = session_.playback().state();
+  const ViewResultPtr latest = session_.latest();
+  if (latest && !view_.result) view_.timeline.reset(view_.source.source.frame_count.value_or(0));
+  view_.result = latest;
+  for (const FrameRecord& record : session_.take_records()) {
+    view_.timeline.add(record.index, record.strength, record.generation >= a_since_);
+    view_.history.add(record.times, record.latency_ms, record.at);
+  }
+  poll_errors();
+  fit_to_source();
+  captured_.count(view_.source.ledger.captured, Clock::now());
+  view_.captured_hz = captured_.rate_hz();
+  sidebar_.sensors().poll(view_);
+  for (const std::string& path : window_.take_dropped()) open(path);
+  const bool live = view_.source.source.live && view_.source.phase == SessionState::Phase::open;
+  const bool recording = view_.recording.phase != RecordingStatus::Phase::idle;
+  refresh_ = live || recording || !view_.notice.empty() || ImGui::GetIO().WantTextInput ||
+             view_.source.phase == SessionState::Phase::opening;
+}
+
+void Viewer::poll_errors() {
+  const SessionState& s = view_.source;
+  if (s.phase != SessionState::Phase::ended) {
+    reported_error_.clear();
+    return;
+  }
+  std::string error = s.error;
+  if (error.empty() && s.ledger.processed == 0)
+    error = "No frame could be used: " + s.uri +
+            (s.rejected_reason.empty() ? "" : " (" + s.rejected_reason + ")");
+  if (error.empty() || error == reported_error_) return;
+  if (!options_.screenshot.empty()) throw failed("no screenshot", error, "");
+  reported_error_ = error;
+  view_.errors.push_back(error);
+}
+
+void Viewer::fit_to_source() {
+  if (fitted_ || view_.source.phase != SessionState::Phase::open) return;
+  fitted_ = true;
+  view_.notes = fit_.fit(state_.settings, view_.source.source);
+}
+
+void Viewer::scale_ui() {
+  const double scale = state_.ui_scale > 0 ? state_.ui_scale : window_.screen_scale();
+  if (scale != scale_ || view_.fonts.bold == nullptr) {
+    view_.fonts = load_fonts(scale);
+    window_.renew_fonts();
+  } else if (theme_ == state_.theme) {
+    return;
+  }
+  scale_ = view_.unit = scale;
+  theme_ = state_.theme;
+  view_.colours = &colours_of(theme_);
+  apply_theme(theme_, scale);
+}
+
+void Viewer::draw_frame() {
+  scale_ui();
+  window_.begin_frame();
+  handle_keys();
+  view_.wants = {};
+  view_.can_undo = history_.can_undo();
+  view_.can_redo = history_.can_redo();
+  view_.renewed.clear();
+  draw_window();
+  share_source(state_.settings);
+  history_.change(state_.settings);
+  if (!ImGui::IsAnyItemActive()) history_.commit();
+  send_compute_request();
+  follow_sensor();
+  window_.end_frame(view_.colours->behind, view_.renewed, [this] { before_show(); });
+}
+
+void Viewer::send_compute_request() {
+  if (state_.comparing() && same_settings(state_.settings.a, state_.settings.b) && !sent_.b)
+    state_.settings.b.kernel =
+        std::clamp(2 * state_.settings.a.kernel + 1, 3, 127);  // something to compare with
+  ComputeRequest request{state_.settings.a, {}, view_.wants};
+  if (state_.comparing()) request.b = state_.settings.b;
+  if (same_request(request, sent_)) return;
+  const bool a_changed = !same_settings(request.a, sent_.a);
+  generation_ = session_.set_compute_request(request);
+  sent_ = std::move(request);
+  if (!a_changed) return;
+  a_since_ = generation_;
+  view_.timeline.age();
+}
+
+// An open sensor gets what was changed in its settings, by its controls, by undo or by a file.
+void Viewer::follow_sensor() {
+  if (view_.source.phase != SessionState::Phase::open || !view_.source.source.live) return;
+  const SensorSettings& wanted = state_.settings.a.sensor;
+  if (wanted.mode != sent_sensor_.mode) return open(view_.source.uri);
+  const SensorValues request = changed_values(sent_sensor_, wanted);
+  if (request != SensorValues{}) session_.request_sensor(request);
+  sent_sensor_ = wanted;
+}
+
+void Viewer::open(const std::string& uri) {
+  OpenRequest request{uri, {}, state_.settings.a.sensor};
+  sent_sensor_ = request.sensor;
+  if (uri == options_.source.uri) request.range = options_.source.range;
+  sidebar_.sensors().end_recording();  // a file is of one source
+  session_.open(request);
+  view_.result.reset();
+  view_.timeline.reset(0);
+  view_.history.clear();
+  view_.errors.clear();
+  view_.notes.clear();
+  fitted_ = false;
+  reported_error_.clear();
+  if (!uri.empty()) remember_source(state_, uri);
+  window_.set_title("Saccade: " + uri);
+  picture_.forget();
+  cloud_.fit();
+  frames_due_ = kFramesAfterEvent;
+}
+
+void Viewer::before_show() {
+  if (options_.screenshot.empty() || !view_.result || view_.result->computed < options_.after_frames ||
+      awaits_result())
+    return;
+  frames_due_ = kFramesAfterEvent;
+  if (--shot_countdown_ > 0) return;
+  write_file(options_.screenshot, encode_png(window_.picture()));
+  window_.close();
+}
+
+void Viewer::log_frame(double busy_ms) {
+  if (!log_) return;
+  const Settings& a = state_.settings.a;
+  const cv::Size window = window_.size();
+  nlohmann::ordered_json line = {
+      {"t_ms", std::chrono::duration<double, std::milli>(Clock::now().time_since_epoch()).count()},
+      {"busy_ms", busy_ms},
+      {"longest_ms", view_.longest_ms},
+      {"frames", frames_},
+      {"source", view_.source.uri},
+      {"phase", static_cast<int>(view_.source.phase)},
+      {"errors", view_.errors},
+      {"notes", view_.notes},
+      {"paused", view_.playback.paused},
+      {"position", view_.playback.position},
+      {"speed", view_.playback.speed},
+      {"model", a.model},
+      {"kernel", a.kernel},
+      {"comparison", static_cast<int>(state_.comparison)},
+      {"divider", state_.divider},
+      {"generation", generation_},
+      {"window", {window.width, window.height}},
+      {"processed", view_.source.ledger.processed},
+      {"connection", static_cast<int>(view_.source.connection.connection)},
+      {"losses", view_.source.connection.losses},
+      {"recording", view_.recording.phase != RecordingStatus::Phase::idle},
+      {"recorded", {{"file", view_.recording.file.string()}, {"frames", view_.recording.frames}}},
+      {"snapshot", view_.snapshot},
+      {"places", view_.places}};
+  const SensorValues sensor = session_.sensor_values();
+  if (sensor.mirror) line["mirror"] = *sensor.mirror;
+  if (sensor.registration) line["registration"] = *sensor.registration;
+  if (view_.result) {
+    const Computed& shown = view_.result->a;
+    const cv::Size size = view_.result->frame().size();
+    line["shown"] = {{"index", view_.result->frame().index},
+                     {"size", {size.width, size.height}},
+                     {"serial", view_.result->serial},
+                     {"generation", view_.result->generation},
+                     {"model", shown.settings.model},
+                     {"kernel", shown.settings.kernel},
+                     {"fixations", shown.result.attention.fixations.size()},
+                     {"compared", view_.result->compared},
+                     {"error", shown.error},
+                     {"draft", view_.result->draft}};
+  }
+  log_->append(line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+}
+
+}  // namespace saccade

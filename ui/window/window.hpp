@@ -1,0 +1,80 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <opencv2/core.hpp>
+
+#include "ui/drawing/canvas.hpp"
+#include "ui/session/shortcuts.hpp"
+
+struct GLFWwindow;
+
+namespace saccade {
+
+/// A GLFW window with an OpenGL 3.3 core context that is current on the thread that made it, and Dear ImGui
+/// on it. One at a time; all calls on that thread, wake() excepted.
+class Window {
+ public:
+  /// Throws Error (failed) where there is no display or no OpenGL 3.3.
+  Window(const std::string& title, cv::Size size);
+  ~Window();
+  Window(const Window&) = delete;
+  Window& operator=(const Window&) = delete;
+
+  /// Makes wait() return. Any thread, while the window lives.
+  static void wake() noexcept;
+
+  /// The font atlas has changed.
+  void renew_fonts();
+
+  /// Waits for something to happen, at most `seconds`; 0 = only looks.
+  void wait(double seconds);
+
+  void begin_frame();
+  /// Draws what ImGui was told, as far as it differs from what is in the window; `before_show` is called when
+  /// all is drawn, before it is shown. `renewed`: textures whose pixels have changed since the last frame.
+  void end_frame(const cv::Scalar& background, std::span<const ImTextureID> renewed,
+                 const std::function<void()>& before_show);
+
+  /// What is in the window, BGR; to be called from `before_show`.
+  cv::Mat3b picture() const;
+
+  bool should_close() const;
+  void close();
+  bool hidden() const;          ///< minimised or without any size
+  double screen_scale() const;  ///< 1 = usual density, 2 = twice
+  cv::Size size() const;        ///< in the units of ImGui
+  void set_title(const std::string& title);
+
+  /// Files and folders that were dropped onto the window since the last call.
+  std::vector<std::string> take_dropped();
+
+  struct KeyPress {
+    Key key;
+    bool ctrl, shift;
+  };
+  /// The keys that were pressed since the last call, repeats included, by what stands on them: letters in
+  /// upper case, other characters as they were typed (then without shift).
+  std::vector<KeyPress> take_keys();
+
+  /// Something happened to the window since the last call: input, a new size, a need to draw it again.
+  bool take_event();
+
+ private:
+  struct Events {
+    std::vector<std::string> dropped;
+    std::vector<KeyPress> keys;
+    bool any = true, exposed = true;
+  };
+  void start_imgui();
+
+  GLFWwindow* window_ = nullptr;
+  Events events_;
+  std::unique_ptr<Canvas> canvas_;
+};
+
+}  // namespace saccade
