@@ -62,6 +62,7 @@ FolderListing list_numbered(const fs::path& folder) {
     entry.depth = file.path();
     entry.colour = first_existing(folder, {stem + "_rgb.png", stem + "_rgb.jpg", stem + "_rgb.jpeg"});
     entry.label = first_existing(folder, {stem + "_label.png"});
+    entry.classes = first_existing(folder, {stem + "_class.png"});
     if (!found.emplace(*number, entry).second)
       throw unreadable("two depth images have the same number", file.path().string(), "rename or delete one");
   }
