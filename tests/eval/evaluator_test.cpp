@@ -75,7 +75,9 @@ TEST(Evaluator, ClassesTellVoidFromStructure) {
     ASSERT_GT(many.size(), few.size());
     ASSERT_LE(many.size(), static_cast<std::size_t>(kVoidReserve * plan.points));
     for (std::size_t k = 0; k < many.size(); ++k) {
-      if (k < few.size()) EXPECT_EQ(cv::Point(many[k].col, many[k].row), cv::Point(few[k].col, few[k].row));
+      if (k < few.size()) {
+        EXPECT_EQ(cv::Point(many[k].col, many[k].row), cv::Point(few[k].col, few[k].row));
+      }
       const int label = frame.truth.labels(many[k].row, many[k].col);
       EXPECT_EQ(many[k].label, label == 0 && many[k].row < 60 ? kVoid : label);
       on_void += many[k].label == kVoid;
