@@ -63,16 +63,16 @@ EvalPlan make_plan(const EvalArguments& arguments, const Settings& settings, con
 
 void check_any_evaluated(const StoredResults& results) {
   for (const ImageResult& image : results.images)
-    if (image.left_out.empty()) return;
+    if (!image.left_out) return;
   throw unreadable(fmt::format("none of {} images could be evaluated; the first: {}", results.images.size(),
-                               results.images.empty() ? "-" : results.images.front().left_out),
+                               results.images.empty() ? "-" : results.images.front().left_out.value()),
                    results.plan.dataset, "each needs a label image of the size of its depth");
 }
 
 nlohmann::ordered_json summary_json(const StoredResults& results, const Statistics& statistics,
                                     const std::string& out) {
   auto json = report_json(results.plan, results.images, statistics);
-  for (const char* key : {"parameters", "interval", "differences"}) json.erase(key);
+  for (const char* key : {"parameters", "interval", "differences", "cross_validation"}) json.erase(key);
   json["out"] = out;
   return json;
 }

@@ -10,9 +10,9 @@ namespace saccade {
 namespace {
 
 void warn_left_out(const ImageResult& image) {
-  if (!image.left_out.empty())
+  if (image.left_out)
     spdlog::warn("frame {}{} left out: {}", image.frame, image.name.empty() ? "" : " (" + image.name + ")",
-                 image.left_out);
+                 *image.left_out);
 }
 
 }  // namespace
