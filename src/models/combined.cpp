@@ -63,12 +63,12 @@ void CombinedModel::reduce(const cv::Mat1f& map, cv::Mat1f& reduced) {
 
 // reduced_itti_ becomes the combined map at 1/4 of the image.
 void CombinedModel::multiply_by_evidence() {
-  constexpr float kWeightOf2d = 0.25F, kFloor = 1e-4F, kExponent = 0.1F;
+  constexpr float kWeightOf2d = 0.25F, kImageFloor = 0.02F, kEvidenceFloor = 1e-4F, kExponent = 0.1F;
   for_row_bands(pool_, reduced3d_.rows, [&](int begin, int end) {
     for (int r = begin; r < end; ++r)
       for (int c = 0; c < reduced3d_.cols; ++c) {
-        const float image = reduced_itti_(r, c) + kWeightOf2d * reduced2d_(r, c);
-        reduced_itti_(r, c) = image * std::pow(reduced3d_(r, c) + kFloor, kExponent);
+        const float image = reduced_itti_(r, c) + kWeightOf2d * reduced2d_(r, c) + kImageFloor;
+        reduced_itti_(r, c) = image * std::pow(reduced3d_(r, c) + kEvidenceFloor, kExponent);
       }
   });
 }

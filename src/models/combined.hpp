@@ -17,8 +17,9 @@ namespace saccade {
 ///  2. This map S_3D, that of itti and that of symmetry2d are reduced to 1/4 of the image, smoothed by a
 ///     Gaussian of 6 px and divided by their maximum.
 ///  3. The image's saliency is multiplied by the order of magnitude of the 3D evidence at the pixel,
-///       S = (itti + 1/4 symmetry2d) * (S_3D + e)^p,   p = 0.1, e = 1e-4,
-///     and brought back to full size. A frame without 3D evidence (S_3D = 0) is ranked by the image alone.
+///       S = (itti + 1/4 symmetry2d + c) * (S_3D + e)^p,   p = 0.1, c = 0.02, e = 1e-4,
+///     and brought back to full size. c keeps what looks like its background, e what is flat. A frame without
+///     3D evidence (S_3D = 0) is ranked by the image alone.
 class CombinedModel : public SaliencyModel {
  public:
   /// Throws Error (usage) as Symmetry3d.

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "settings/settings.hpp"
 #include "output/overlay.hpp"
 #include "pipeline/result.hpp"
+#include "settings/settings.hpp"
 
 namespace saccade {
 
