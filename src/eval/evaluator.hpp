@@ -34,13 +34,13 @@ inline constexpr int kVoidReserve = 3;
 
 /// The result of one image; one line of results.jsonl.
 struct ImageResult {
-  std::int64_t frame = 0;               ///< index in the source
-  std::string name{};                   ///< of the frame; may be empty
-  std::optional<std::string> left_out;  ///< why the image is not part of the evaluation; none: it is
+  std::int64_t frame = 0;                 ///< index in the source
+  std::string name{};                     ///< of the frame; may be empty
+  std::optional<std::string> left_out{};  ///< why the image is not part of the evaluation; none: it is
   int objects = 0;
-  bool void_known = false;                  ///< the image has classes, which tell void from structure
-  std::vector<double> random, centre;       ///< expected HR_n of the baselines, n = 1..points
-  std::vector<ConditionResult> conditions;  ///< as EvalPlan::conditions()
+  bool void_known = false;                    ///< the image has classes, which tell void from structure
+  std::vector<double> random{}, centre{};     ///< expected HR_n of the baselines, n = 1..points
+  std::vector<ConditionResult> conditions{};  ///< as EvalPlan::conditions()
 };
 
 /// A saliency map and the points chosen in it.

@@ -1,7 +1,6 @@
 #include "models/combined.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include <opencv2/imgproc.hpp>
 
@@ -28,8 +27,8 @@ CombinedModel::CombinedModel(const ModelSettings& settings, WorkerPool& pool)
       itti_(std::make_unique<IttiModel>("combined", false, pool)),
       symmetry2d_(make_symmetry2d(pool)) {}
 
-// From the coarsest level down: sums_[l] holds the weighted levels from l on.
-void CombinedModel::add_weighted_levels(const cv::Mat1f& depth_mm) {
+// From the coarsest level down: sums_[l] holds the sum of the weighted levels from l on.
+void CombinedModel::weigh_levels(const cv::Mat1f& depth_mm) {
   constexpr float kNoiseLimitMm = 500;
   const int last_level = first_level_ + static_cast<int>(maps3d_.levels.size()) - 1;
   sums_.resize(static_cast<std::size_t>(last_level) + 1);
@@ -61,16 +60,19 @@ void CombinedModel::reduce(const cv::Mat1f& map, cv::Mat1f& reduced) {
   divide_by_maximum(reduced);
 }
 
-// reduced_itti_ becomes the combined map at 1/4 of the image.
-void CombinedModel::multiply_by_evidence() {
-  constexpr float kWeightOf2d = 0.25F, kImageFloor = 0.02F, kEvidenceFloor = 1e-4F, kExponent = 0.1F;
-  for_row_bands(pool_, reduced3d_.rows, [&](int begin, int end) {
-    for (int r = begin; r < end; ++r)
-      for (int c = 0; c < reduced3d_.cols; ++c) {
-        const float image = reduced_itti_(r, c) + kWeightOf2d * reduced2d_(r, c) + kImageFloor;
-        reduced_itti_(r, c) = image * std::pow(reduced3d_(r, c) + kEvidenceFloor, kExponent);
-      }
-  });
+// Median of every 16th pixel.
+float CombinedModel::trust_in_3d(const cv::Mat1f& depth_mm) {
+  constexpr float kNearMm = 1000;
+  constexpr int kStep = 1 << kReducedLevel;
+  depths_.clear();
+  for (int r = 0; r < depth_mm.rows; r += kStep)
+    for (int c = 0; c < depth_mm.cols; c += kStep)
+      if (depth_mm(r, c) > 0) depths_.push_back(depth_mm(r, c));
+  if (depths_.empty()) return 0;
+  const auto median = depths_.begin() + static_cast<std::ptrdiff_t>(depths_.size() / 2);
+  std::nth_element(depths_.begin(), median, depths_.end());
+  const float x = *median / kNearMm;
+  return 1 / (1 + (x * x) * (x * x));
 }
 
 void CombinedModel::compute(const Frame& frame, RequestedOutputs outputs, SaliencyMaps& maps,
@@ -80,14 +82,17 @@ void CombinedModel::compute(const Frame& frame, RequestedOutputs outputs, Salien
   symmetry3d_.compute(frame.depth_mm, frame.intrinsics, {.levels = true, .normals = outputs.normals}, maps3d_,
                       times);
   const StageTimer timer(times, Stage::master_map);
-  add_weighted_levels(frame.depth_mm);
+  weigh_levels(frame.depth_mm);
   reduce(sums_[0], reduced3d_);
   reduce(maps_itti_.master, reduced_itti_);
   reduce(maps2d_.master, reduced2d_);
-  multiply_by_evidence();
+  const float trust = trust_in_3d(frame.depth_mm);
+  reduced3d_ *= 0.5F + 0.5F * trust;
+  cv::scaleAdd(reduced_itti_, 1 - trust, reduced3d_, reduced3d_);
+  cv::scaleAdd(reduced2d_, (1 - trust) / 4, reduced3d_, reduced3d_);
   maps.master.create(frame.size());
   for_row_bands(pool_, frame.size().height, [&](int begin, int end) {
-    upsample_rows(reduced_itti_, kReducedLevel, maps.master, false, begin, end);
+    upsample_rows(reduced3d_, kReducedLevel, maps.master, false, begin, end);
   });
   maps.levels.resize(outputs.levels ? maps3d_.levels.size() : 0);
   for (std::size_t i = 0; i < maps.levels.size(); ++i) maps3d_.levels[i].copyTo(maps.levels[i]);

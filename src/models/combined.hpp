@@ -7,19 +7,18 @@
 
 namespace saccade {
 
-/// `combined`: 3D symmetry together with the Itti model and 2D symmetry; README.md of this folder has the
-/// reasons. Needs depth and colour. By-products are those of symmetry3d.
+/// `combined`: 3D symmetry together with the Itti model and 2D symmetry; README.md of this folder says why it
+/// is made so. Needs depth and colour. By-products are those of symmetry3d.
 ///
-///  1. The map of each pyramid level l of symmetry3d is weighted by the depth z of the pixel,
+///  1. The map of each pyramid level l of symmetry3d is weighted with the depth z of the pixel,
 ///       w_l(z) = 1/(1 + (z/(z_0 2^l))^2),   z_0 = 500 mm:
 ///     the noise of a sensor grows with z^2 and each level smooths it; where it is large, fine levels find
 ///     symmetry in noise. The weighted levels are added as in Eq. (15).
-///  2. This map S_3D, that of itti and that of symmetry2d are reduced to 1/4 of the image, smoothed by a
-///     Gaussian of 6 px and divided by their maximum.
-///  3. The image's saliency is multiplied by the order of magnitude of the 3D evidence at the pixel,
-///       S = (itti + 1/4 symmetry2d + c) * (S_3D + e)^p,   p = 0.1, c = 0.02, e = 1e-4,
-///     and brought back to full size. c keeps what looks like its background, e what is flat. A frame without
-///     3D evidence (S_3D = 0) is ranked by the image alone.
+///  2. This map, that of itti and that of symmetry2d are reduced to 1/4 of the image, smoothed by a Gaussian
+///     of 6 px and divided by their maximum.
+///  3. They are added with more trust t in 3D the nearer the scene is, z being the median depth of the frame,
+///       (1/2 + t/2) * 3D + (1 - t) * (itti + 1/4 * symmetry2d),   t = 1/(1 + (z/z_1)^4),   z_1 = 1000 mm,
+///     and the sum is brought back to full size. Without any depth t = 0, and the image alone counts.
 class CombinedModel : public SaliencyModel {
  public:
   /// Throws Error (usage) as Symmetry3d.
@@ -27,9 +26,9 @@ class CombinedModel : public SaliencyModel {
   void compute(const Frame& frame, RequestedOutputs outputs, SaliencyMaps& maps, StageTimes& times) override;
 
  private:
-  void add_weighted_levels(const cv::Mat1f& depth_mm);
+  void weigh_levels(const cv::Mat1f& depth_mm);
   void reduce(const cv::Mat1f& map, cv::Mat1f& reduced);
-  void multiply_by_evidence();
+  float trust_in_3d(const cv::Mat1f& depth_mm);
 
   WorkerPool& pool_;
   int first_level_;
@@ -38,6 +37,7 @@ class CombinedModel : public SaliencyModel {
   SaliencyMaps maps3d_, maps_itti_, maps2d_;
   std::vector<cv::Mat1f> sums_;  ///< of the weighted levels, by level
   cv::Mat1f half_, reduced3d_, reduced_itti_, reduced2d_;
+  std::vector<float> depths_;
 };
 
 }  // namespace saccade

@@ -89,7 +89,7 @@ bool has_numbered_depth(const SourceInput& input) {
 extern const SourceKind kNumberedKind = {
     .name = "folder",
     .written = "FOLDER",
-    .help = "numbered depth images (PNG, 16 bits, mm), each with colour and labels if there are any",
+    .help = "NNNN_depth.png (16 bits, mm), with NNNN_rgb.png or .jpg and NNNN_label.png where there are any",
     .recognised_by = "NNNN_depth.png",
     .recognises = has_numbered_depth,
     .open =

@@ -57,7 +57,7 @@ TEST(Evaluator, PointsAreThoseOfModelAndSelector) {
   }
 }
 
-// With classes every model gives kVoidReserve times as many points, the same ones first, and those on
+// With classes every model gives up to kVoidReserve times as many points, the same ones first, and those on
 // unlabelled pixels of class 0 are void.
 TEST(Evaluator, ClassesTellVoidFromStructure) {
   Frame frame = table_frame();
@@ -70,18 +70,23 @@ TEST(Evaluator, ClassesTellVoidFromStructure) {
   const ImageResult with = Evaluator(plan, pool).evaluate(frame);
   EXPECT_TRUE(with.void_known);
   int on_void = 0;
+  bool has_more = false;
   for (std::size_t i = 0; i < with.conditions.size(); ++i) {
     const auto &few = without.conditions[i].points, &many = with.conditions[i].points;
-    ASSERT_GT(many.size(), few.size());
+    ASSERT_GE(many.size(), few.size());
+    has_more = has_more || many.size() > few.size();
     ASSERT_LE(many.size(), static_cast<std::size_t>(kVoidReserve * plan.points));
     for (std::size_t k = 0; k < many.size(); ++k) {
-      if (k < few.size()) EXPECT_EQ(cv::Point(many[k].col, many[k].row), cv::Point(few[k].col, few[k].row));
+      if (k < few.size()) {
+        EXPECT_EQ(cv::Point(many[k].col, many[k].row), cv::Point(few[k].col, few[k].row));
+      }
       const int label = frame.truth.labels(many[k].row, many[k].col);
       EXPECT_EQ(many[k].label, label == 0 && many[k].row < 60 ? kVoid : label);
       on_void += many[k].label == kVoid;
     }
   }
   EXPECT_GT(on_void, 0);
+  EXPECT_TRUE(has_more);
 }
 
 TEST(Evaluator, AFrameWithoutLabelsIsLeftOut) {
