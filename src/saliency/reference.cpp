@@ -211,6 +211,7 @@ std::optional<PixelSymmetry> symmetry_at(const Level& level, int row, int col,
   return pixel;
 }
 
+// Eq. (3), Eq. (13): the best plane
 double PixelSymmetry::score() const { return std::max({planes[0].score, planes[1].score, planes[2].score}); }
 
 cv::Mat1d symmetry_map(const Level& level, const Symmetry3dParams& params) {

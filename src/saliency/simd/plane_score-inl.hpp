@@ -1,5 +1,5 @@
-// The score of one candidate plane from the sums of its halves, sections 2.3 to 2.8, Eqs. (3) to (14);
-// compiled once for each instruction set.
+// The score of one candidate plane from the sums of its halves, sections 2.3 to 2.8; compiled once for each
+// instruction set.
 #if defined(SACCADE_SALIENCY_PLANE_SCORE_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef SACCADE_SALIENCY_PLANE_SCORE_INL
 #undef SACCADE_SALIENCY_PLANE_SCORE_INL
