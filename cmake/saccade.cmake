@@ -27,6 +27,7 @@ add_library(saccade_opencv INTERFACE)
 add_library(saccade::opencv ALIAS saccade_opencv)
 target_link_libraries(saccade_opencv INTERFACE opencv_core opencv_imgproc opencv_imgcodecs)
 target_include_directories(saccade_opencv SYSTEM INTERFACE ${OpenCV_INCLUDE_DIRS})
+set_target_properties(saccade_opencv PROPERTIES EXPORT_NAME opencv)
 
 # saccade_library(NAME SOURCES file... LINK target... PRIVATE_LINK target...): the library saccade::NAME of one folder.
 function(saccade_library name)

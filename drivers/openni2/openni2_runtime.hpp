@@ -26,7 +26,7 @@ class OpenNi2Runtime {
   /// Throws Error (failed) if OpenNI2 cannot start, e.g. without driver modules; a later call tries again.
   static OpenNi2Runtime& instance();
 
-  /// What is connected now.
+  /// The devices that are connected now.
   std::vector<DeviceIdentity> devices() const;
 
   /// Counts how often OpenNI2 reported the device as gone or in error; a change means that it was lost.

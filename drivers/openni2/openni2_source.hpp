@@ -29,7 +29,7 @@ namespace saccade {
 class OpenNi2Source final : public FrameSource {
  public:
   /// Throws Error: (usage) the device lacks the mode that was asked for; (unreadable) there is no device, and
-  /// none is to be waited for; (failed) OpenNI2 does not start.
+  /// Saccade is not to wait for one; (failed) OpenNI2 does not start.
   OpenNi2Source(const std::string& uri, const SensorSettings& settings);
 
   const SourceInfo& info() const override { return info_; }

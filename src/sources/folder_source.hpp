@@ -19,7 +19,7 @@ struct FolderEntry {
   std::filesystem::path classes{};             ///< may be empty
 };
 
-/// What a layout of folders finds: the frames in their order.
+/// The frames that a folder layout finds, in their order.
 struct FolderListing {
   std::vector<FolderEntry> entries;  ///< not empty
   double mm_per_unit = 1;            ///< of depth images

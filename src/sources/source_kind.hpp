@@ -11,7 +11,7 @@
 
 namespace saccade {
 
-/// What a user gave as SOURCE, examined once for all kinds.
+/// The SOURCE that a user gave, examined once for all kinds.
 struct SourceInput {
   enum class Type { absent, file, folder };
 

@@ -11,7 +11,7 @@
 
 namespace saccade {
 
-/// What `synthetic:NAME?key=value&...` asks for.
+/// The parts of `synthetic:NAME?key=value&...`.
 struct SyntheticSpec {
   enum class Noise { none, kinect };
   enum class Camera { still, orbit };

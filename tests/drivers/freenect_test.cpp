@@ -145,7 +145,7 @@ std::vector<std::uint8_t> depth_bytes(const std::vector<std::uint16_t>& raw) {
   return bytes_of(depth);
 }
 
-TEST_F(FreenectTest, AFakenectSessionComesThroughWholeAndEndsAsADisconnect) {
+TEST_F(FreenectTest, AFakenectSessionArrivesCompleteAndEndsAsADisconnect) {
   const Session session = write_session(folder_, 12);
   const std::string said =
       play(FAKENECT_FOLDER, fmt::format("FAKENECT_PATH='{}'", folder_.string()), "1000 dc");
@@ -177,7 +177,7 @@ TEST_F(FreenectTest, AfterADisconnectTheDeviceComesBack) {
 
 #else
 
-TEST_F(FreenectTest, AFakenectSessionComesThroughWholeAndEndsAsADisconnect) {
+TEST_F(FreenectTest, AFakenectSessionArrivesCompleteAndEndsAsADisconnect) {
   GTEST_SKIP() << "fakenect is not installed beside libfreenect";
 }
 

@@ -36,9 +36,9 @@ TEST(KinectDepth, TheReferencePlaneIsWhereItIs) {
   EXPECT_NEAR((kinect_depth_mm(801, geometry) + kinect_depth_mm(802, geometry)) / 2, 1200, 0.05);
 }
 
-// What was measured with tape by the people who first drove the Kinect: 1 / (3.33 - 0.00307 raw) metres, good
+// Measured with tape by the authors of the first Kinect driver: 1 / (3.33 - 0.00307 raw) metres, good
 // to a few per cent.
-TEST(KinectDepth, AgreesWithWhatIsMeasured) {
+TEST(KinectDepth, AgreesWithMeasurements) {
   for (int raw = 500; raw <= 1000; raw += 50) {
     const double measured_mm = 1000 / (3.3309495161 - 0.0030711016 * raw);
     EXPECT_NEAR(kinect_depth_mm(raw, {}), measured_mm, 0.06 * measured_mm) << raw;
@@ -63,7 +63,7 @@ TEST(KinectDepth, TheTableHoldsRoundedDepthsAndNoOthers) {
 
 TEST(KinectDepth, FocalLengthOfTheInfraredCamera) { EXPECT_NEAR(kinect_focal_px({}), 575.8, 0.1); }
 
-TEST(KinectClock, RunsOnWhenTheTicksStartAnew) {
+TEST(KinectClock, ContinuesWhenTheTicksWrap) {
   KinectClock clock;
   const std::uint64_t begin = clock.microseconds(4'294'000'000U);
   std::uint64_t ticks = 4'294'000'000U;

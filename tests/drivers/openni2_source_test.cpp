@@ -137,7 +137,7 @@ TEST_F(Sensor, ControlsAreReadBackAndHoldForTheFrames) {
   EXPECT_TRUE(found);
 }
 
-TEST_F(Sensor, EachModeThatItTellsCanBeOpened) {
+TEST_F(Sensor, EachListedModeCanBeOpened) {
   const std::vector<SensorMode> modes = open_source("openni2")->controls()->modes();
   EXPECT_EQ(modes, (std::vector<SensorMode>{{160, 120, 30}, {160, 120, 60}, {80, 60, 30}, {80, 60, 60}}));
   for (const SensorMode& mode : modes) {
@@ -160,7 +160,7 @@ TEST_F(Sensor, DevicesAreListedWhileOneStreams) {
   }
 }
 
-TEST_F(Sensor, LookingIntoADeviceTellsItsModes) {
+TEST_F(Sensor, LookingIntoADeviceGivesItsModes) {
   DeviceListing device = list_devices().at(0);
   look_into(device);
   EXPECT_EQ(device.problem, "");

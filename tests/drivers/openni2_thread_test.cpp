@@ -36,7 +36,7 @@ TEST(OpenNi2Thread, ATaskMayAskForAnother) {
   EXPECT_EQ(value, 7);
 }
 
-TEST(OpenNi2Thread, WhatATaskThrowsComesOut) {
+TEST(OpenNi2Thread, ExceptionsOfATaskAreRethrown) {
   EXPECT_THROW(on_openni2_thread([] { throw std::runtime_error("no"); }), std::runtime_error);
   bool goes_on = false;
   on_openni2_thread([&] { goes_on = true; });

@@ -23,7 +23,7 @@ TEST_F(StreamClockTest, TheDeviceKnowsBestWhenAFrameWasTaken) {
   EXPECT_EQ(at(67, 843'666), 66'666);
 }
 
-TEST_F(StreamClockTest, AfterALossTheMachinesClockTellsHowLongItTook) {
+TEST_F(StreamClockTest, AfterALossTheMachinesClockGivesTheTimeAway) {
   at(0, 5'000'000);
   at(33, 5'033'333);
   clock_.restart();

@@ -86,7 +86,7 @@ inline bool same_bytes(const cv::Mat& a, const cv::Mat& b) {
   return std::memcmp(joined_a.data, joined_b.data, joined_a.total() * joined_a.elemSize()) == 0;
 }
 
-/// What the device should give of a frame, by the plainest code; with `step` 2 in a mode of half the size.
+/// The device's expected output for a frame, by the simplest code; with `step` 2 in a mode of half the size.
 inline cv::Mat1w depth_of(const Frame& frame, int step = 1) {
   cv::Mat1w depth(frame.size() / step);
   for (int row = 0; row < depth.rows; ++row)

@@ -1,4 +1,4 @@
-// What the virtual device is to a program: listed where it is asked for, its frames, its settings.
+// The virtual device as a program sees it: when it is listed, its frames, its settings.
 #include <algorithm>
 #include <cstdint>
 #include <map>
@@ -21,7 +21,7 @@ TEST_F(VirtualDeviceTest, IsListedOnlyWhenAskedFor) {
   EXPECT_THAT(uris(), Contains(kUri));
 }
 
-TEST_F(VirtualDeviceTest, WhatCannotBePlayedIsToldInOneLineAndNotListed) {
+TEST_F(VirtualDeviceTest, AnUnplayableSourceGivesOneLineAndNoDevice) {
   for (const char* text : {"/no/such/folder", "synthetic:table?sead=3", "synthetic:table?loss=lost",
                            "openni2", SACCADE_SOURCE_DIR "/README.md"}) {
     ::testing::internal::CaptureStderr();
@@ -34,7 +34,7 @@ TEST_F(VirtualDeviceTest, WhatCannotBePlayedIsToldInOneLineAndNotListed) {
   }
 }
 
-TEST_F(VirtualDeviceTest, ARelativePathIsSeenFromTheFolderThatTheShellTells) {
+TEST_F(VirtualDeviceTest, ARelativePathIsSeenFromTheFolderOfTheShell) {
   const char* pwd = std::getenv("PWD");
   const std::optional<std::string> before = pwd != nullptr ? std::optional<std::string>(pwd) : std::nullopt;
   ::setenv("PWD", SACCADE_SOURCE_DIR, 1);
@@ -81,7 +81,7 @@ TEST_F(VirtualDeviceTest, FractionsOfMillimetresAreRounded) {
   EXPECT_TRUE(same_bytes(seen.image, depth_of(frame)));
 }
 
-TEST_F(VirtualDeviceTest, TellsWhatItIs) {
+TEST_F(VirtualDeviceTest, DescribesItself) {
   open_scene();
   EXPECT_STREQ(device_.getDeviceInfo().getName(), "Virtual device");
   EXPECT_STREQ(device_.getDeviceInfo().getVendor(), "Saccade");

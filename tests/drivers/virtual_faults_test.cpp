@@ -55,7 +55,7 @@ TEST_F(VirtualFaultsTest, LossByErrorState) {
   EXPECT_EQ(events.count("disconnected"), 0);
 }
 
-TEST_F(VirtualFaultsTest, SilentLossTellsNothing) {
+TEST_F(VirtualFaultsTest, SilentLossIsNotReported) {
   offer_scene("&loss_after=3&loss=silent");
   DeviceEvents events;
   open();

@@ -69,7 +69,7 @@ TEST(VirtualSpec, SyntheticSourcesKeepTheirKeys) {
   EXPECT_EQ(spec.rate_hz, 60);
 }
 
-TEST(VirtualSpec, SaysWhatIsWrong) {
+TEST(VirtualSpec, NamesMistakes) {
   EXPECT_THAT(complaint("a.oni?lossafter=3"), HasSubstr("unknown key 'lossafter'"));
   EXPECT_THAT(complaint("a.oni?lossafter=3"), HasSubstr("loss_after"));
   EXPECT_THAT(complaint("a.oni?"), HasSubstr("unknown key ''"));

@@ -121,7 +121,7 @@ TEST_F(FolderSourceTest, BrokenMetaIsAnError) {
   }
 }
 
-TEST_F(FolderSourceTest, WrongDepthImagesAreNamedWithWhatIsWrong) {
+TEST_F(FolderSourceTest, WrongDepthImagesAreNamedWithTheReason) {
   const auto put_only = [&](const cv::Mat& image) { put("0000_depth.png", image); };
   put_only(cv::Mat1b(12, 16, std::uint8_t{1}));
   EXPECT_THAT(error(), HasSubstr("0000_depth.png: 8-bit grey is not 16-bit grey depth"));

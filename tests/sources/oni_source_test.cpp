@@ -122,7 +122,7 @@ TEST_F(OniSourceTest, DamagedColourCostsTheColourOnly) {
   }
 }
 
-TEST_F(OniSourceTest, WhatWasLostIsTold) {
+TEST_F(OniSourceTest, LossesAreNotes) {
   record();
   fs::resize_file(file(), fs::file_size(file()) * 2 / 3);
   const OniSource source(file());
@@ -141,7 +141,7 @@ TEST_F(OniSourceTest, AGuessedCameraStaysAGuess) {
   EXPECT_EQ(source.info().intrinsics.fx, 300);
 }
 
-TEST_F(OniSourceTest, ColourOfAnotherSizeIsScaledAndTold) {
+TEST_F(OniSourceTest, ColourOfAnotherSizeIsScaledWithANote) {
   OniRecordWriter writer(file(), false);
   const auto add = [&](std::uint32_t id, OniNodeType type, OniPixelFormat pixels, std::uint32_t width) {
     OniNodeFields fields;

@@ -64,7 +64,7 @@ TEST(SyntheticSpec, ReadsEveryKey) {
   EXPECT_EQ(spec.distance_mm, 812.5);
 }
 
-TEST(SyntheticSpec, NamesWhatIsWrongAndWhatIsKnown) {
+TEST(SyntheticSpec, NamesMistakesAndKnownWords) {
   const struct {
     const char *uri, *says, *hints;
   } kCases[] = {
@@ -113,7 +113,7 @@ TEST(SyntheticSpec, NamesWhatIsWrongAndWhatIsKnown) {
   }
 }
 
-TEST(SyntheticSource, TellsWhatItIs) {
+TEST(SyntheticSource, DescribesItself) {
   const SyntheticSource source("synthetic:room?size=320x240&frames=7&rate=15");
   const SourceInfo& info = source.info();
   EXPECT_EQ(info.uri, "synthetic:room?size=320x240&frames=7&rate=15");
