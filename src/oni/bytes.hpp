@@ -12,9 +12,9 @@
 namespace saccade {
 
 static_assert(std::endian::native == std::endian::little,
-              "the .oni code copies little-endian numbers as they are");
+              "the .oni code copies little-endian numbers without conversion");
 
-/// The little-endian number at the start of `bytes`, which need not be aligned and holds at least sizeof(T).
+/// The little-endian number at the start of `bytes`: at least sizeof(T) of them, aligned or not.
 template <typename T>
 T load_le(const std::uint8_t* bytes) {
   T value;
@@ -27,8 +27,8 @@ void store_le(std::uint8_t* bytes, T value) {
   std::memcpy(bytes, &value, sizeof value);
 }
 
-/// Takes numbers and strings one after another from bytes that nobody has checked; each is absent where the
-/// bytes do not hold it, and then nothing is taken.
+/// Reads numbers and strings in order from unchecked bytes. A read that the remaining bytes cannot satisfy
+/// returns nothing and does not advance.
 class ByteCursor {
  public:
   explicit ByteCursor(std::span<const std::uint8_t> bytes) : rest_(bytes) {}
@@ -50,7 +50,7 @@ class ByteCursor {
     return bytes;
   }
 
-  /// A string of the format: u32 length with the final NUL, 1..`limit`; no NUL inside.
+  /// A string (README 1): u32 length with the final NUL, 1..`limit`; no other NUL.
   std::optional<std::string> take_string(std::uint32_t limit) {
     ByteCursor ahead = *this;
     const auto length = ahead.take<std::uint32_t>();
@@ -67,7 +67,7 @@ class ByteCursor {
   std::span<const std::uint8_t> rest_;
 };
 
-/// Appends numbers and strings in the format's layout.
+/// Appends numbers and strings in the layout of the format.
 class ByteBuilder {
  public:
   template <typename T>
@@ -87,7 +87,7 @@ class ByteBuilder {
   std::size_t size() const { return bytes_.size(); }
   std::span<const std::uint8_t> bytes() const { return bytes_; }
   std::vector<std::uint8_t> take() { return std::move(bytes_); }
-  /// Forgets all but the first `size` bytes.
+  /// Keeps the first `size` bytes.
   void cut(std::size_t size) { bytes_.resize(size); }
   void clear() { bytes_.clear(); }
 

@@ -40,7 +40,7 @@ class Checker {
   void check_file() {
     if (index_.zero_tail_bytes > 0)
       add(index_.file_size - index_.zero_tail_bytes, OniSeverity::note,
-          fmt::format("{} zero bytes at the end, a habit of OpenNI2", index_.zero_tail_bytes));
+          fmt::format("{} zero bytes at the end, as OpenNI2 leaves them", index_.zero_tail_bytes));
     if (index_.nodes.empty()) add(kOniHeaderSize, OniSeverity::error, "no streams");
     if (!closed()) return;
     std::uint64_t last_us = 0;
@@ -74,7 +74,7 @@ class Checker {
     const bool counts = node.record_type != OniRecordType::node_added_1004;
     if (closed() && counts && node.declared.frames != node.frames.size())
       add(node.position, OniSeverity::error,
-          fmt::format("node {} declares {} frames, {} are there", node.id, node.declared.frames,
+          fmt::format("node {} declares {} frames and has {}", node.id, node.declared.frames,
                       node.frames.size()));
   }
 
@@ -103,7 +103,7 @@ class Checker {
     }
   }
 
-  // The links from record to record, and the tables of frames.
+  // Undo positions and seek tables.
   void check_links() {
     OniWalker walker(recording_.file());
     while (const auto record = walker.next()) {
@@ -123,14 +123,14 @@ class Checker {
     for (const OniNode& node : index_.nodes)
       if (node.declared.table_position != 0 && !tables_found_[node.id])
         add(node.position, OniSeverity::error,
-            fmt::format("node {} says its table is at {}, where none is; players refuse", node.id,
+            fmt::format("node {} declares its table at {}, where there is none; players refuse", node.id,
                         node.declared.table_position));
   }
 
-  void check_undo(const OniRecord& record, std::uint64_t should) {
-    if (record.undo != should)
+  void check_undo(const OniRecord& record, std::uint64_t expected) {
+    if (record.undo != expected)
       add(record.position, OniSeverity::warning,
-          fmt::format("{} points back to {} instead of {}", to_string(record.type), record.undo, should));
+          fmt::format("{} points back to {} instead of {}", to_string(record.type), record.undo, expected));
   }
 
   void check_table(const OniNode& node, const OniRecord& record) {
@@ -150,9 +150,9 @@ class Checker {
       const OniFrameEntry& frame = node.frames[k];
       const bool there = position < index_.file_size && is_frame_at(position, frame);
       if (time != frame.timestamp_us || !there)
-        return add(
-            at, OniSeverity::error,
-            fmt::format("the table of node {} is wrong from frame {} on; players seek astray", node.id, k));
+        return add(at, OniSeverity::error,
+                   fmt::format("the table of node {} is wrong from frame {} on; players seek to wrong frames",
+                               node.id, k));
     }
   }
 

@@ -5,7 +5,7 @@
 namespace saccade {
 namespace {
 
-constexpr const char* kCut = "the coded data is cut";
+constexpr const char* kTruncated = "the coded data is truncated";
 constexpr const char* kTooMany = "more pixels than the image has";
 
 class Im8zReader {
@@ -27,8 +27,8 @@ class Im8zReader {
       const char* fault = repeat(1);
       return fault != nullptr ? fault : low_nibble(c & 15);
     }
-    // A value split over two bytes; the rest of the second one is a nibble as any other.
-    if (next_ == in_.size()) return kCut;
+    // A value split over two bytes; the rest of the second is a low nibble.
+    if (next_ == in_.size()) return kTruncated;
     const unsigned d = in_[next_++];
     current_ = static_cast<std::uint8_t>((c & 15) << 4 | d >> 4);
     const char* fault = repeat(1);
@@ -43,7 +43,7 @@ class Im8zReader {
   }
 
   const char* literal() {
-    if (next_ == in_.size()) return kCut;
+    if (next_ == in_.size()) return kTruncated;
     current_ = in_[next_++];
     return repeat(1);
   }

@@ -11,9 +11,8 @@
 
 namespace saccade {
 
-/// The .oni container, as OpenNI 1.x and OpenNI2 write it: a 24-byte file header, then records back to back.
-/// Everything is little-endian and packed; positions are byte offsets from the start of the file; times are
-/// microseconds.
+/// The .oni container (README 1 and 2): a 24-byte file header, then records back to back. Everything is
+/// little-endian and packed; positions are byte offsets from the start of the file; times are microseconds.
 
 constexpr std::size_t kOniHeaderSize = 24;
 constexpr std::size_t kOniMaxRecordHeader = 28;
@@ -21,14 +20,14 @@ constexpr std::size_t kOniFrameFields = 12;  ///< u64 timestamp, u32 number, aft
 constexpr std::uint32_t kOniNoCount = std::numeric_limits<std::uint32_t>::max();
 constexpr std::uint64_t kOniNoTime = std::numeric_limits<std::uint64_t>::max();
 
-/// Bounds that no sound file exceeds; a number beyond them is damage.
+/// Bounds of untrusted numbers (README 8).
 constexpr std::uint64_t kOniMaxFields = 1u << 20;
 constexpr std::uint64_t kOniMaxPayload = 64u << 20;
 constexpr std::uint32_t kOniMaxName = 256;
 constexpr std::uint32_t kOniMaxSide = 8192;          ///< px
 constexpr std::uint64_t kOniMaxPixels = 16'000'000;  ///< of one image
-/// In a larger image, a cropped frame must be at least 1/kOniMaxCropRatio of it: a few bytes of a frame must
-/// not ask for a huge image.
+/// In an image of more pixels, a crop must be at least 1/kOniMaxCropRatio of it, so that a frame of a few
+/// bytes cannot demand a huge image.
 constexpr std::uint64_t kOniFreeCropPixels = 1600 * 1200;
 constexpr std::uint64_t kOniMaxCropRatio = 64;
 constexpr std::size_t kOniMaxNodes = 64;
@@ -56,10 +55,10 @@ enum class OniRecordType : std::uint32_t {
 enum class OniNodeType : std::int32_t { device = 1, depth = 2, image = 3, audio = 4, ir = 5 };
 
 enum class OniCodec : std::uint32_t {
-  none = 0x454E4F4E,  ///< "NONE": the pixels as they are
-  z16t = 0x547A3631,  ///< "16zT": 16 bit, with a table of the values
-  z16p = 0x507A3631,  ///< "16zP": 16 bit, without
-  z8 = 0x7A386D49,    ///< "Im8z": 8 bit
+  none = 0x454E4F4E,  ///< "NONE": pixels without coding
+  z16t = 0x547A3631,  ///< "16zT": 16-bit symbols with a table of values
+  z16p = 0x507A3631,  ///< "16zP": 16-bit symbols
+  z8 = 0x7A386D49,    ///< "Im8z": 8-bit symbols
   jpeg = 0x4745504A,  ///< "JPEG"
 };
 
@@ -78,10 +77,10 @@ enum class OniPixelFormat : std::uint32_t {
 
 bool is_property(OniRecordType type);
 bool is_node_added(OniRecordType type);
-/// Depth, image and IR nodes hold frames; all others are passed over.
+/// Depth, image and IR nodes hold frames; others are skipped.
 bool holds_frames(OniNodeType type);
 bool holds_depth(OniPixelFormat format);
-/// 0 for a camera's JPEG, which has no fixed size.
+/// 0 for a JPEG of the camera, which has no fixed size.
 std::size_t bytes_per_pixel(OniPixelFormat format);
 
 /// "depth", "image", "ir", "device", "audio", "other".
@@ -90,7 +89,7 @@ std::string_view to_string(OniNodeType type);
 std::string to_string(OniCodec codec);
 std::string_view to_string(OniPixelFormat format);
 std::string to_string(OniRecordType type);
-/// The pixel format of that number, if there is one.
+/// The pixel format with that number; absent for an unknown one.
 std::optional<OniPixelFormat> pixel_format_of(std::uint64_t number);
 bool is_known(OniCodec codec);
 
@@ -106,19 +105,19 @@ struct OniFileHeader {
   std::uint64_t max_timestamp = kOniNoTime;
   std::uint32_t max_node_id = 0;
 
-  /// Versions below 1.0.1.0 have 32-bit positions: shorter record headers and table entries.
+  /// Versions before 1.0.1.0 have 32-bit positions: shorter record headers and table entries.
   bool narrow() const { return version < OniVersion{1, 0, 1, 0}; }
   std::size_t record_header_size() const { return narrow() ? 24 : 28; }
   std::size_t table_entry_size() const { return narrow() ? 16 : 20; }
 };
 
-/// The header in the first 24 bytes; absent if the magic is another. The version is not judged here.
+/// The header in the first 24 bytes; absent if they are fewer or without the magic. Any version.
 std::optional<OniFileHeader> parse_file_header(std::span<const std::uint8_t> bytes);
 /// From 1.0.0.4 to 1.0.1.0.
 bool is_supported(const OniVersion& version);
 std::string to_string(const OniVersion& version);
 
-/// One record as its header tells; nothing of it is checked against the file.
+/// One record, as its header declares it; not checked against the file.
 struct OniRecord {
   std::uint64_t position = 0;
   OniRecordType type{};
@@ -134,8 +133,8 @@ struct OniRecord {
   std::uint64_t end() const { return payload_position() + payload_size; }
 };
 
-/// The record header at the start of `bytes`, with the fields of NEW_DATA where they are there; absent
-/// without the magic, or if `bytes` or fields_size are shorter than the header.
+/// The record header at the start of `bytes`, with the fields of NEW_DATA; absent without the magic, or if
+/// `bytes` or fields_size are too short for it.
 std::optional<OniRecord> parse_record(const OniFileHeader& file, std::uint64_t position,
                                       std::span<const std::uint8_t> bytes);
 
@@ -149,7 +148,7 @@ struct OniNodeFields {
   std::uint64_t table_position = 0;
 };
 
-/// Reads the fields after the record header; absent if they are cut or the name is no string.
+/// Reads the fields after the record header; absent if they are truncated or the name is no string.
 std::optional<OniNodeFields> parse_node_added(const OniFileHeader& file, OniRecordType type,
                                               std::span<const std::uint8_t> fields);
 

@@ -43,8 +43,7 @@ class Scanner {
     }
     OniNode* node = find(record.node);
     if (record.type > OniRecordType::seek_table || record.type < OniRecordType::node_added_1004)
-      return note(record.position, OniSeverity::warning,
-                  to_string(record.type) + " is unknown and passed over");
+      return note(record.position, OniSeverity::warning, to_string(record.type) + " is unknown and skipped");
     if (node == nullptr)
       return note(record.position, OniSeverity::error,
                   fmt::format("{} of node {}, which was never added", to_string(record.type), record.node));
@@ -88,7 +87,7 @@ class Scanner {
       return note(record.position, OniSeverity::error, fmt::format("node id {} is not allowed", record.node));
     if (find(record.node) != nullptr)
       return note(record.position, OniSeverity::error,
-                  fmt::format("node {} is added twice; only the first counts", record.node));
+                  fmt::format("node {} is added twice; only the first is used", record.node));
     if (index_.nodes.size() == kOniMaxNodes)
       return note(record.position, OniSeverity::error, fmt::format("more than {} nodes", kOniMaxNodes));
     OniNode node;
@@ -107,9 +106,9 @@ class Scanner {
     const auto size = known_property_size(property->name);
     if (!size) return;
     if (!size->allows(property->value.size()))
-      return note(
-          record.position, OniSeverity::error,
-          fmt::format("{} has {} bytes, which cannot be; ignored", property->name, property->value.size()));
+      return note(record.position, OniSeverity::error,
+                  fmt::format("{} has an impossible size of {} bytes; ignored", property->name,
+                              property->value.size()));
     node.changes += 1;
     node.property_bytes += property->value.size();
     if (node.changes > kOniMaxChanges || node.property_bytes > kOniMaxPropertyBytes)
@@ -124,12 +123,12 @@ class Scanner {
     if (index_.end_position != 0 && !after_end_noted_) {
       after_end_noted_ = true;
       note(record.position, OniSeverity::error,
-           "frames after the END record, which other players will not show");
+           "frames after the END record, which other players do not show");
     }
     if (frames_ == kOniMaxFrames) {
       if (!full_noted_)
         note(record.position, OniSeverity::error,
-             fmt::format("more than {} frames; the rest is left out", kOniMaxFrames));
+             fmt::format("more than {} frames; the others are ignored", kOniMaxFrames));
       full_noted_ = true;
       return;
     }
@@ -141,10 +140,10 @@ class Scanner {
   void note_gaps() {
     for (const OniGap& gap : walker_.gaps()) {
       const bool last = gap.end + walker_.zero_tail_bytes() >= index_.file_size;
-      note(
-          gap.begin, OniSeverity::error,
-          fmt::format("{} bytes are no records: {}", gap.bytes(),
-                      last ? "the recording is cut or damaged from here on" : "damaged, read on after them"));
+      note(gap.begin, OniSeverity::error,
+           fmt::format("{} bytes are no records: {}", gap.bytes(),
+                       last ? "the recording is truncated or damaged from here on"
+                            : "damaged, reading resumes after them"));
     }
   }
 

@@ -7,14 +7,14 @@
 
 namespace saccade {
 
-/// A file for reading at any position. It never maps the file, since one that shrinks while it is open would
-/// then raise SIGBUS. The size is that of the moment of opening; what was cut since reads as missing.
-/// Thread safety: read() may be called by several threads.
+/// A file for reading at any position. It is not mapped: a mapped file that shrinks raises SIGBUS. The size
+/// is that of the moment of opening; bytes that have been cut off since are missing. Thread safety: several
+/// threads may call read().
 class InputFile {
  public:
-  /// Throws Error (unreadable) if there is no such regular file or it cannot be opened.
+  /// Throws Error (unreadable) if it is not a regular file or cannot be opened.
   explicit InputFile(const std::filesystem::path& path);
-  /// Takes over an open descriptor of a regular file; `name` is for messages.
+  /// Owns an open descriptor of a regular file from here on; `name` is for messages.
   InputFile(int descriptor, std::string name);
   ~InputFile();
   InputFile(const InputFile&) = delete;
@@ -23,8 +23,8 @@ class InputFile {
   const std::string& name() const { return name_; }
   std::uint64_t size() const { return size_; }
 
-  /// Reads up to bytes.size() bytes from `position`; returns how many there were, fewer only at the end of
-  /// the file or where the disk cannot read.
+  /// Reads bytes.size() bytes from `position`; returns their number, smaller only at the end of the file or
+  /// at a read error of the disk.
   std::size_t read(std::uint64_t position, std::span<std::uint8_t> bytes) const;
 
  private:

@@ -16,7 +16,7 @@ struct JpegShape {
   int width = 0, height = 0, components = 0;
 };
 
-// The size that the first frame header (SOF0 to SOF2: baseline, extended, progressive) declares.
+// The declaration in the first frame header (SOF0 to SOF2: baseline, extended, progressive).
 std::optional<JpegShape> read_shape(std::span<const std::uint8_t> bytes) {
   if (bytes.size() < 4 || bytes[0] != 0xFF || bytes[1] != 0xD8) return std::nullopt;
   std::size_t at = 2;
@@ -32,7 +32,7 @@ std::optional<JpegShape> read_shape(std::span<const std::uint8_t> bytes) {
       if (length < 8 || at + 10 > bytes.size()) return std::nullopt;
       return JpegShape{bytes[at + 7] << 8 | bytes[at + 8], bytes[at + 5] << 8 | bytes[at + 6], bytes[at + 9]};
     }
-    // The image data, its end, or a kind of frame that no camera makes.
+    // The image data, its end, or a frame of a kind that no camera makes.
     const bool other_frame =
         marker >= 0xC3 && marker <= 0xCF && marker != 0xC4 && marker != 0xC8 && marker != 0xCC;
     if (length < 2 || marker == 0xDA || marker == 0xD9 || other_frame) return std::nullopt;
@@ -54,7 +54,7 @@ struct JpegCodec::Handles {
 
 JpegCodec::JpegCodec() : handles_(std::make_unique<Handles>()) {
   if (handles_->decompress == nullptr || handles_->compress == nullptr)
-    throw failed("cannot start libjpeg-turbo", tjGetErrorStr(), "is there memory left?");
+    throw failed("cannot start libjpeg-turbo", tjGetErrorStr(), "there may be too little memory");
 }
 
 JpegCodec::~JpegCodec() = default;

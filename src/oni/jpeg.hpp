@@ -11,8 +11,8 @@
 
 namespace saccade {
 
-/// Decodes and encodes the JPEG images of a recording with libjpeg-turbo. Keeps its tables between images.
-/// Thread safety: one call at a time per object.
+/// Decodes and encodes the JPEG images of a recording (README 4.4) with libjpeg-turbo. Keeps its state
+/// between images. Thread safety: one call at a time per object.
 class JpegCodec {
  public:
   JpegCodec();

@@ -16,11 +16,11 @@
 namespace saccade {
 namespace {
 
-constexpr std::uint64_t kReserveStep = 4u << 20;  // so that most writes need no call for it
+constexpr std::uint64_t kReserveStep = 4u << 20;  // so that few writes need a call of fallocate()
 
 Error write_error(const std::string& name, const char* what, int code) {
   return failed(std::string(what) + ": " + std::strerror(code), name,
-                "is the folder writable and the disk in order?");
+                "check that the folder is writable and the disk healthy");
 }
 
 bool is_full(int code) { return code == ENOSPC || code == EDQUOT || code == EFBIG; }
@@ -36,7 +36,7 @@ std::uint64_t size_limit() {
 }  // namespace
 
 OutputFile::OutputFile(const std::filesystem::path& path, bool overwrite) : name_(path.string()) {
-  // A file that exists is replaced by a new one and not emptied in place: someone may still be reading it.
+  // An existing file is replaced, not emptied: another process may be reading it.
   std::error_code ignored;
   if (overwrite && std::filesystem::is_regular_file(path, ignored)) ::unlink(path.c_str());
   descriptor_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
@@ -50,7 +50,7 @@ OutputFile::~OutputFile() { ::close(descriptor_); }
 
 bool OutputFile::reserve(std::uint64_t bytes) {
   const std::uint64_t wanted = size_ + bytes;
-  // Checked here, since a write beyond the limit would also raise the signal SIGXFSZ.
+  // A write beyond the limit would raise the signal SIGXFSZ.
   if (wanted > size_limit()) return false;
   if (wanted <= reserved_) return true;
   for (const std::uint64_t target : {wanted + kReserveStep, wanted}) {
@@ -65,7 +65,7 @@ bool OutputFile::reserve(std::uint64_t bytes) {
       reserved_ = target;
       return true;
     }
-    if (!is_full(code)) break;  // a file system that cannot reserve: look at what is free
+    if (!is_full(code)) break;  // the file system cannot reserve: check the free space below
     if (target == wanted) return false;
   }
   struct statvfs disk {};
@@ -86,7 +86,7 @@ bool OutputFile::append(std::span<const std::uint8_t> bytes) {
     if (code == EINTR) continue;
     if (::ftruncate(descriptor_, static_cast<off_t>(size_)) != 0)
       throw write_error(name_, "cannot write", errno);
-    reserved_ = 0;  // cutting gave the reserved blocks back
+    reserved_ = 0;  // ftruncate() has released the reserved blocks
     if (is_full(code)) return false;
     throw write_error(name_, "cannot write", code);
   }
@@ -106,7 +106,7 @@ void OutputFile::overwrite(std::uint64_t position, std::span<const std::uint8_t>
 }
 
 void OutputFile::flush() {
-  // Some special file systems cannot flush, and then there is nothing to wait for.
+  // Some special file systems cannot sync, and there is nothing to wait for.
   if (::fdatasync(descriptor_) != 0 && errno != EINVAL && errno != EROFS)
     throw write_error(name_, "cannot write to the disk", errno);
 }
@@ -114,7 +114,7 @@ void OutputFile::flush() {
 void OutputFile::flush_folder() {
   const auto folder = std::filesystem::path(name_).parent_path() / ".";
   const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (descriptor < 0) return;  // a folder that may be written to and not read
+  if (descriptor < 0) return;  // the folder is writable but not readable
   ::fsync(descriptor);
   ::close(descriptor);
 }

@@ -7,14 +7,14 @@
 
 namespace saccade {
 
-/// A new file that grows by whole blocks and keeps room on the disk, so that what must still be written at
-/// the end finds its place even when the disk fills up. Thread safety: one call at a time.
+/// A new file that reserves space on the disk ahead of its end, so that the closing records fit even on a
+/// disk that has become full (README 9). Thread safety: one call at a time.
 class OutputFile {
  public:
   /// Creates the file. With `overwrite` an existing one is replaced, without it that is an Error (usage).
   /// Throws Error (failed) if it cannot be created.
   OutputFile(const std::filesystem::path& path, bool overwrite);
-  /// Closes the file; it stays as it is.
+  /// Closes the file and keeps it.
   ~OutputFile();
   OutputFile(const OutputFile&) = delete;
   OutputFile& operator=(const OutputFile&) = delete;
@@ -22,26 +22,26 @@ class OutputFile {
   const std::string& name() const { return name_; }
   std::uint64_t size() const { return size_; }
 
-  /// Makes sure that the file can grow by `bytes` from its present size: takes blocks of the disk ahead of
-  /// the end of the file, and respects the process's file-size limit. False if the disk (or quota, or limit)
-  /// has no room for them.
+  /// Ensures that the file can grow by `bytes`: reserves blocks ahead of its end, and respects the process's
+  /// limit on file size. False if the disk (or quota, or limit) has no room. Where the file system cannot
+  /// reserve, it only checks the free space.
   [[nodiscard]] bool reserve(std::uint64_t bytes);
 
-  /// Appends all of `bytes` or, if that fails, nothing: the file is cut back to where it was. False if there
-  /// is no room. Throws Error (failed) for any other failure.
+  /// Appends all of `bytes` or, if that fails, nothing: the file is truncated to its size before. False if
+  /// there is no room. Throws Error (failed) for any other failure.
   [[nodiscard]] bool append(std::span<const std::uint8_t> bytes);
 
-  /// Writes over bytes that are there already. Throws Error (failed).
+  /// Replaces existing bytes. Throws Error (failed).
   void overwrite(std::uint64_t position, std::span<const std::uint8_t> bytes);
 
   /// Waits until everything is on the disk. Throws Error (failed).
   void flush();
 
-  /// Waits until the folder's entry for the file is on the disk; without it, a power cut may take the file as
-  /// a whole. Does nothing where folders cannot be flushed.
+  /// Waits until the entry of the file in its folder is on the disk; before that, a power failure may remove
+  /// the file as a whole. Does nothing where folders cannot be synced.
   void flush_folder();
 
-  /// Gives back the room that was kept and not used.
+  /// Releases the reserved blocks that are not used.
   void release_reserve();
 
   /// Removes the file from its folder.
@@ -51,7 +51,7 @@ class OutputFile {
   std::string name_;
   int descriptor_ = -1;
   std::uint64_t size_ = 0;
-  std::uint64_t reserved_ = 0;  // the file has blocks up to here
+  std::uint64_t reserved_ = 0;  // the file has blocks up to this size
 };
 
 }  // namespace saccade

@@ -47,7 +47,7 @@ OniPixelFormat default_format(OniNodeType type) {
   }
 }
 
-// The pixel format that the two properties name, or why there is none.
+// The pixel format of the two properties; absent if they name none that fits the node.
 std::optional<OniPixelFormat> pixel_format(const OniNode& node, std::uint64_t position) {
   const bool depth = node.declared.type == OniNodeType::depth;
   if (const auto number = node.int_property(kOniFormat, position)) {
@@ -86,7 +86,7 @@ std::optional<Intrinsics> from_angles(double horizontal_rad, double vertical_rad
   return camera.valid() ? std::optional(camera) : std::nullopt;
 }
 
-// Cropping that does not fit the image is ignored.
+// The crop, or the full image if there is none or it does not fit.
 cv::Rect crop_at(const OniNode& node, std::uint64_t position, cv::Size size) {
   const auto crop = cropping_at(node, position);
   return crop && fits_in(*crop, size) ? *crop : cv::Rect(cv::Point(0, 0), size);
@@ -121,7 +121,7 @@ OniFormat format_at(const OniNode& node, std::uint64_t position) {
   if (!is_known(node.declared.codec))
     return fail(fmt::format("unknown codec {}", to_string(node.declared.codec)));
   const auto mode = node.property(kMode, position);
-  if (!mode) return fail("no image size is given");
+  if (!mode) return fail("no image size");
   const auto width = load_le<std::uint32_t>(mode->data()), height = load_le<std::uint32_t>(mode->data() + 4),
              rate = load_le<std::uint32_t>(mode->data() + 8);
   if (width < 1 || height < 1 || width > kOniMaxSide || height > kOniMaxSide ||

@@ -128,9 +128,9 @@ void OniRecordWriter::begin() {
   begun_ = true;
 }
 
-// Of all that close() appends, if nothing more is written before.
+// The size of all that close() appends, with one more frame for each node.
 std::uint64_t OniRecordWriter::closing_size() const {
-  std::uint64_t size = kHeader + 1024;  // END, and room for some last properties
+  std::uint64_t size = kHeader + 1024;  // END, and some properties before it
   for (const Node& each : nodes_) size += 2 * kHeader + (each.entries.size() + 2) * kTableEntry;
   return size;
 }
@@ -138,7 +138,7 @@ std::uint64_t OniRecordWriter::closing_size() const {
 bool OniRecordWriter::write_frame(std::uint32_t id, std::uint64_t timestamp_us,
                                   std::span<const std::uint8_t> payload) {
   if (!begun_ || payload.size() > kOniMaxPayload)
-    throw std::invalid_argument("OniRecordWriter: not now, or too large");
+    throw std::invalid_argument("OniRecordWriter: a frame before begin(), or too large");
   Node& owner = node(id);
   const std::size_t properties = pending_.size();
   const std::uint64_t position = file_.size() + properties;
@@ -156,7 +156,7 @@ bool OniRecordWriter::write_frame(std::uint32_t id, std::uint64_t timestamp_us,
   return true;
 }
 
-// NODE_REMOVED and the table of frames; a node without frames has none.
+// NODE_REMOVED and SEEK_TABLE; a node without frames has no table.
 void OniRecordWriter::add_table(Node& node) {
   put_header(OniRecordType::node_removed, node.id, 0, 0, node.position);
   node.fields.frames = static_cast<std::uint32_t>(node.entries.size());
@@ -165,7 +165,7 @@ void OniRecordWriter::add_table(Node& node) {
   node.fields.table_position = file_.size() + pending_.size();
   put_header(OniRecordType::seek_table, node.id, 0, (node.entries.size() + 1) * kTableEntry, 0);
   node.fields.min_timestamp_us = kOniNoTime;
-  for (std::size_t i = 0; i < kTableEntry; ++i) pending_.put(std::uint8_t{0});  // entry 0 is none
+  for (std::size_t i = 0; i < kTableEntry; ++i) pending_.put(std::uint8_t{0});  // entry 0 is empty
   for (const Entry& entry : node.entries) {
     pending_.put(entry.timestamp_us);
     pending_.put(entry.configuration);

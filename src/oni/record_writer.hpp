@@ -15,13 +15,13 @@
 
 namespace saccade {
 
-/// Writes the records of an .oni file (version 1.0.1.0) in an order and with contents that the stock players
-/// of OpenNI2 and OpenNI 1.5.4 accept, and so that the file is whole after every single write: nodes, their
-/// properties and what a player needs before the first frame go out as one block; then each frame is one
-/// append. Room for the closing records is kept on the disk from the start.
+/// Writes the records of an .oni file (README 9), version 1.0.1.0, so that the stock players of OpenNI2 and
+/// OpenNI 1.5.4 accept them and the file is readable after every single write: nodes, properties and all that
+/// a player needs before the first frame are one write; then each frame is one. Space for the closing records
+/// is reserved from the start.
 ///
-/// First add_node() and add_property(), then begin(), then write_frame() and add_property(), then close().
-/// Without close() the file is one of an interrupted recording: readable up to the last frame.
+/// Order of calls: add_node() and add_property(), begin(), write_frame() and add_property(), close(). Without
+/// close() the file is an unclosed recording, readable up to the last frame.
 /// Thread safety: one call at a time per object.
 class OniRecordWriter {
  public:
@@ -31,27 +31,26 @@ class OniRecordWriter {
   /// `id` >= 1 and not used yet. Counts and times in `fields` are ignored. Before begin() only.
   void add_node(std::uint32_t id, const OniNodeFields& fields);
 
-  /// `type` is one of the property types. After begin() it goes out with the next frame, or with close().
+  /// `type` is one of the property types. After begin() it is written with the next frame or by close().
   void add_property(std::uint32_t node, OniRecordType type, std::string_view name,
                     std::span<const std::uint8_t> value);
   void add_int(std::uint32_t node, std::string_view name, std::uint64_t value);
 
-  /// Writes everything up to the first frame and waits until it is on the disk. Throws Error (failed), also
-  /// where the disk has no room.
+  /// Writes everything before the first frame and waits until it is on the disk. Throws Error (failed), also
+  /// if the disk has no room.
   void begin();
 
-  /// Appends a frame; its number is its place in the node, from 1. False, with the file unchanged, if the
-  /// disk has no room for it and the closing records. Throws Error (failed) if writing fails otherwise.
+  /// Appends a frame; it gets the next number of its node, from 1. False, with the file unchanged, if the
+  /// disk has no room for it and the closing records. Throws Error (failed) for any other failure.
   [[nodiscard]] bool write_frame(std::uint32_t node, std::uint64_t timestamp_us,
                                  std::span<const std::uint8_t> payload);
 
-  /// Waits until all that is written is on the disk. Throws Error (failed).
+  /// Waits until all written bytes are on the disk. Throws Error (failed).
   void flush() { file_.flush(); }
   /// Waits until the file's entry in its folder is on the disk; see OutputFile.
   void flush_folder() { file_.flush_folder(); }
 
-  /// Writes tables and counts. Nothing may follow. Throws Error (failed); the file is then readable as an
-  /// interrupted one.
+  /// Writes tables and counts; the last call. Throws Error (failed); the file is then an unclosed recording.
   void close();
 
   const std::string& name() const { return file_.name(); }
@@ -82,8 +81,8 @@ class OniRecordWriter {
 
   OutputFile file_;
   std::vector<Node> nodes_;
-  ByteBuilder pending_;              // what the next append writes
-  std::uint32_t configuration_ = 1;  // raised with every property; the table's real entries carry at least 1
+  ByteBuilder pending_;              // for the next append
+  std::uint32_t configuration_ = 1;  // counts properties; at least 1 in the entries of frames (README 5)
   bool begun_ = false;
 };
 

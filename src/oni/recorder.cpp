@@ -13,7 +13,7 @@ constexpr std::chrono::seconds kLongestUnsynced{1};
 }  // namespace
 
 OniRecorder::OniRecorder(OniWriter& writer, std::size_t capacity) : writer_(writer), capacity_(capacity) {
-  if (capacity < 1) throw std::invalid_argument("OniRecorder: the queue needs room for a frame");
+  if (capacity < 1) throw std::invalid_argument("OniRecorder: the queue needs room for one frame");
   thread_ = std::jthread([this] { work(); });
 }
 
@@ -43,7 +43,7 @@ void OniRecorder::push(const Frame& frame) {
   add(lock, frame);
 }
 
-// Copies the frame without the lock, since nobody else adds.
+// Copies the frame without the lock: only one thread adds frames.
 void OniRecorder::add(std::unique_lock<std::mutex>& lock, const Frame& frame) {
   Frame copy;
   if (!recycled_.empty()) {
@@ -90,8 +90,7 @@ std::uint64_t OniRecorder::size_bytes() const {
   return size_bytes_;
 }
 
-// Frames of a camera that wait already go out first: waiting for the disk once for all of them takes no
-// longer than for one.
+// Queued frames of a camera are written before the next sync: one sync for all takes no longer than for one.
 bool OniRecorder::time_to_sync(Clock::time_point last) const {
   return queue_.empty() || source_waits_ || Clock::now() - last >= kLongestUnsynced;
 }
@@ -128,7 +127,7 @@ void OniRecorder::work() {
     lock.lock();
   } catch (...) {
     const std::exception_ptr error = std::current_exception();
-    // The first error is what matters; the file is closed as well as it can be.
+    // The first error is reported; a second one while closing is not.
     try {
       writer_.close();
     } catch (const std::exception&) {

@@ -13,36 +13,35 @@
 
 namespace saccade {
 
-/// Writes frames on a thread of its own, so that a slow disk does not hold up the camera: between the two is
-/// a queue of bounded length. A camera offers its frames, and those that find the queue full are dropped and
-/// counted, also in the file; a source that can wait pushes them, and none is dropped.
+/// Writes frames on a thread of its own, so that a slow disk does not delay the camera; a queue of bounded
+/// length connects the two. A camera offers its frames; frames that find the queue full are dropped and
+/// counted, also in the file. A source that can wait pushes its frames, and none is dropped.
 ///
-/// Each frame is made to reach the disk before the next is written, so that a power cut takes no more than
-/// the frame being written and those that wait. A disk too slow for that gets the frames that came meanwhile
-/// together (still at least once a second), rather than that any is dropped; counts().unsynced tells how many
-/// frames are at stake.
-/// Thread safety: one thread calls offer(), push() and finish().
+/// The recorder syncs each frame to the disk before it writes the next, so that a power failure takes only
+/// the frame being written and the queue. On a slow disk it syncs the queued frames of a camera together, at
+/// least once a second, rather than drop any; counts().unsynced is the number that a power failure would
+/// take. Thread safety: one thread calls offer(), push() and finish().
 class OniRecorder {
  public:
-  /// `capacity` >= 1 frames wait at most. `writer` must outlive this, and nobody else calls it meanwhile.
+  /// `capacity`: the length of the queue, >= 1. `writer` must outlive the recorder, which alone may call it.
   OniRecorder(OniWriter& writer, std::size_t capacity);
-  /// Stops after the frame that is being written; what waits is lost. Call finish() for a whole file.
+  /// Stops after the frame being written and closes the file; queued frames are lost. finish() writes them.
   ~OniRecorder();
   OniRecorder(const OniRecorder&) = delete;
   OniRecorder& operator=(const OniRecorder&) = delete;
 
-  /// Takes a copy of the frame if there is room, and returns whether there was. Rethrows the first error of
-  /// the writing thread.
+  /// Queues a copy of the frame. False if the queue is full: the frame is dropped. Rethrows the first error
+  /// of the writing thread.
   bool offer(const Frame& frame);
 
-  /// Takes a copy of the frame, and waits for room. Rethrows the first error of the writing thread.
+  /// Queues a copy of the frame, and waits for room. Rethrows the first error of the writing thread.
   void push(const Frame& frame);
 
-  /// Writes what waits and closes the file. Rethrows the first error; the file is closed then too, as far as
-  /// that was possible.
+  /// Writes the queued frames and closes the file. Rethrows the first error; even then the file is closed as
+  /// far as possible.
   void finish();
 
-  /// What is written so far, drops of the queue included.
+  /// The counts so far, with the drops of the queue.
   OniWriterCounts counts() const;
   std::uint64_t size_bytes() const;
 
@@ -56,8 +55,8 @@ class OniRecorder {
   const std::size_t capacity_;
   mutable std::mutex mutex_;
   std::condition_variable changed_;
-  std::deque<Frame> queue_;     // guarded by mutex_, as is all below
-  std::deque<Frame> recycled_;  // frames whose memory is used again
+  std::deque<Frame> queue_;     // guarded by mutex_, like all below
+  std::deque<Frame> recycled_;  // frames whose memory is reused
   std::uint64_t dropped_ = 0;
   bool finishing_ = false, abandoned_ = false;
   bool source_waits_ = false;  // frames are pushed

@@ -7,8 +7,7 @@
 namespace saccade {
 namespace {
 
-// True if the payload of some frame could hold an image of the declared size. Without this check, a wrong
-// size in the file would become the size of everything computed from it.
+// True if the payload of some frame could hold an image of the declared size (README 8).
 bool has_plausible_frame(const Recording& recording, const OniNode& node) {
   for (std::size_t k = 0; k < node.frames.size(); ++k) {
     const OniFormat format = recording.format(node, k);

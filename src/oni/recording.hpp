@@ -59,8 +59,7 @@ class Recording {
   cv::Mat1w stored_;
 };
 
-/// The depth stream to show: the first depth node with a frame whose payload may hold an image; nullptr =
-/// none.
+/// The depth stream to show: the first depth node with a frame that may hold an image; nullptr = none.
 const OniNode* main_depth(const Recording& recording);
 /// The stream whose images go with the depth: the first image node of that kind, else the first IR node;
 /// nullptr = none.

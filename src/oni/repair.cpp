@@ -16,9 +16,9 @@ namespace saccade {
 namespace {
 
 constexpr std::uint64_t kMaxDepth = 65535;
-constexpr std::size_t kMaxPropertyBytes = 16u << 20;  // of all nodes; far beyond any genuine file
+constexpr std::size_t kMaxPropertyBytes = 16u << 20;  // of all nodes; genuine files have far less
 
-// Nodes that other players can be given: with frames of a known form, or without frames at all.
+// True for nodes that a player can decode, and for nodes that hold no frames.
 bool is_playable(const Recording& recording, const OniNode& node) {
   if (!is_known(node.declared.codec)) return false;
   if (!holds_frames(node.declared.type)) return true;
@@ -35,13 +35,13 @@ class Repair {
       if (is_playable(recording_, node))
         kept_.insert(node.id);
       else
-        report_.notes.push_back(fmt::format("node {} ({}) cannot be played and is left out", node.id,
+        report_.notes.push_back(fmt::format("node {} ({}) cannot be played and is omitted", node.id,
                                             to_string(node.declared.type)));
     }
     const bool any = std::any_of(index_.nodes.begin(), index_.nodes.end(), [&](const OniNode& node) {
       return holds_frames(node.declared.type) && kept_.contains(node.id);
     });
-    if (!any) throw unreadable("no stream that could be saved", from.string(), "");
+    if (!any) throw unreadable("no stream can be repaired", from.string(), "");
     writer_.emplace(to, overwrite);
   }
 
@@ -86,19 +86,19 @@ class Repair {
     return first;
   }
 
-  // What the stock players refuse to do without.
+  // Adds the properties without which the stock players refuse a stream (README 11).
   void complete_properties() {
     for (const OniNode& node : index_.nodes) {
       if (!kept_.contains(node.id) || !holds_frames(node.declared.type)) continue;
       if (!written_.contains({node.id, std::string(oni_property::kCropping)})) {
         writer_->add_property(node.id, OniRecordType::general_property, oni_property::kCropping,
                               std::array<std::uint8_t, 12>{});
-        report_.notes.push_back(fmt::format("xnCropping was added to node {}", node.id));
+        report_.notes.push_back(fmt::format("added xnCropping to node {}", node.id));
       }
       if (node.declared.type == OniNodeType::depth &&
           !written_.contains({node.id, std::string(oni_property::kMaxDepth)})) {
         writer_->add_int(node.id, oni_property::kMaxDepth, kMaxDepth);
-        report_.notes.push_back(fmt::format("xnDeviceMaxDepth was added to node {}", node.id));
+        report_.notes.push_back(fmt::format("added xnDeviceMaxDepth to node {}", node.id));
       }
     }
   }
@@ -121,7 +121,7 @@ class Repair {
     if (property_bytes_ > kMaxPropertyBytes) return;
     written_.insert({record.node, property->name});
     const bool crop = property->name == oni_property::kCropping;
-    // Cropping outside of the image makes a stock player read beyond the frame; it counts as off here.
+    // Cropping outside the image makes a stock player read beyond the frame, so it is switched off.
     if (crop && !crop_is_possible(record))
       writer_->add_property(record.node, record.type, property->name, std::array<std::uint8_t, 12>{});
     else
@@ -132,7 +132,7 @@ class Repair {
     const OniNode& node = *index_.find(record.node);
     const auto crop = cropping_at(node, record.end());
     const OniFormat here = format_at(node, record.end());
-    // Where the image size comes later in the file, it is that one that counts.
+    // The image size may come later in the file.
     const cv::Size size = here.size.empty() ? format_at(node, index_.file_size).size : here.size;
     return !crop || fits_in(*crop, size);
   }
@@ -140,7 +140,7 @@ class Repair {
   void copy_frame(const OniRecord& record) {
     const OniNode& node = *index_.find(record.node);
     std::size_t& k = next_frame_[record.node];
-    // The index and this walk see the same records in the same order, but the index may hold fewer frames.
+    // The index and this walk have the same records in the same order, but the index may hold fewer frames.
     if (k >= node.frames.size() || node.frames[k].payload_position != record.payload_position()) return;
     const OniFormat format = recording_.format(node, k);
     const Outcome read_frame = node.declared.type == OniNodeType::depth
@@ -176,8 +176,8 @@ OniRepairReport repair_recording(const std::filesystem::path& from, const std::f
                                  bool overwrite) {
   std::error_code code;
   if (std::filesystem::equivalent(from, to, code))
-    throw usage_error("the repaired recording needs a name of its own", to.string(),
-                      "the original is never written to");
+    throw usage_error("the repaired recording needs another name", to.string(),
+                      "repair never changes the original");
   return Repair(from, to, overwrite).run();
 }
 

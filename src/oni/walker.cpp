@@ -25,7 +25,7 @@ OniWalker::OniWalker(const InputFile& file) : file_(file) {
   zero_tail_ = std::max<std::uint64_t>(find_zero_tail(), kOniHeaderSize);
 }
 
-// Where the zeros at the end begin: the byte before is not zero.
+// The position where the zeros at the end begin.
 std::uint64_t OniWalker::find_zero_tail() const {
   std::vector<std::uint8_t> chunk(kChunk);
   std::uint64_t end = file_.size();
@@ -53,7 +53,7 @@ std::optional<OniRecord> OniWalker::record_at(std::uint64_t position) const {
 
 bool OniWalker::record_or_end_at(std::uint64_t position) {
   ahead_.reset();
-  // The last field of a record may end in zeros that belong to it, so the tail may begin before `position`.
+  // The last record may end in zeros of its own, so the tail may begin before `position`.
   if (position >= zero_tail_) return true;
   ahead_ = record_at(position);
   return ahead_.has_value();
@@ -73,7 +73,7 @@ std::optional<OniRecord> OniWalker::next() {
       position_ = end;
       return record;
     }
-    // No record follows: either this one's length is wrong, or what follows is damaged.
+    // No record follows: either the length of this one is wrong, or the bytes after it are damaged.
     const std::uint64_t found = find_record(record->position + 4);
     position_ = found;
     if (found >= end) {
@@ -86,8 +86,8 @@ std::optional<OniRecord> OniWalker::next() {
   return std::nullopt;
 }
 
-// The first place from `from` on where a record begins that another or the end of the file follows; the
-// begin of the zero tail if there is none. Leaves ahead_ as the record there.
+// The first position from `from` on of a record that another record or the end of the file follows; the begin
+// of the zero tail if there is none. Sets ahead_ to that record.
 std::uint64_t OniWalker::find_record(std::uint64_t from) {
   static constexpr char kMagic[4] = {'N', 'I', 'R', '\0'};
   std::vector<std::uint8_t> chunk(kChunk);

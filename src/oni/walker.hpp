@@ -9,33 +9,32 @@
 
 namespace saccade {
 
-/// A part of the file that holds no usable record.
+/// A part of the file without a usable record.
 struct OniGap {
   std::uint64_t begin = 0, end = 0;
   std::uint64_t bytes() const { return end - begin; }
 };
 
-/// Gives the records of a file one after another, each read from at most two places and checked against the
-/// bounds of the format and the size of the file. Where the chain of records breaks, it searches for the next
-/// place where one begins and its end is again a record or the end of the file. Every byte is looked at a
-/// bounded number of times, so damage of any kind costs time linear in the size of the file.
+/// Returns the records of a file in order, each checked against the bounds of the format and the size of the
+/// file. Where the chain of records breaks, it searches for the next record that another record or the end of
+/// the file follows (README 7). It examines every byte a bounded number of times, so the time is linear in
+/// the size of the file.
 class OniWalker {
  public:
-  /// `file` must outlive the walker. Throws Error (unreadable) if it is no .oni file, or of an unknown
-  /// version.
+  /// `file` must outlive the walker. Throws Error (unreadable) if the file is no .oni file or
+  /// has an unknown version.
   explicit OniWalker(const InputFile& file);
 
   const OniFileHeader& header() const { return header_; }
 
-  /// The next record, or none at the end. Its end() is within the file.
+  /// The next record; absent at the end. Its end() is within the file.
   std::optional<OniRecord> next();
 
-  /// What was passed over so far; at most kMaxGaps are kept, the last of them then stands for all that
-  /// follow.
+  /// The parts skipped so far; at most kMaxGaps, the last of which then includes all further ones.
   const std::vector<OniGap>& gaps() const { return gaps_; }
   std::uint64_t lost_bytes() const { return lost_bytes_; }
 
-  /// The zero bytes after the last record, which OpenNI2 leaves there (a habit, no damage).
+  /// The number of zero bytes after the last record; OpenNI2 leaves some, so they are no damage.
   std::uint64_t zero_tail_bytes() const { return file_.size() - zero_tail_; }
 
  private:
@@ -50,7 +49,7 @@ class OniWalker {
   const InputFile& file_;
   OniFileHeader header_;
   std::uint64_t position_ = kOniHeaderSize;
-  std::optional<OniRecord> ahead_;  // the record at position_, if it was looked at already
+  std::optional<OniRecord> ahead_;  // the record at position_, if it is known already
   std::uint64_t zero_tail_ = 0;     // from here to the end there are only zeros
   std::uint64_t lost_bytes_ = 0;
   std::vector<OniGap> gaps_;

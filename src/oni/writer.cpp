@@ -62,7 +62,7 @@ OniWriter::~OniWriter() {
   try {
     if (!closed_) close();
   } catch (const std::exception&) {
-    // What is written stays readable; who wants to know calls close().
+    // The file stays readable; close() reports errors.
   }
 }
 
@@ -98,7 +98,7 @@ void OniWriter::begin(const Frame& frame) {
   begun_ = true;
 }
 
-// The properties that the stock players need, then Saccade's own.
+// The properties of a stream, in the order of README 9.
 void OniWriter::add_stream(std::uint32_t id, const Frame& frame) {
   const bool depth = id == kDepthNode;
   const auto general = [&](std::string_view name, std::span<const std::uint8_t> value) {
@@ -127,7 +127,7 @@ void OniWriter::add_stream(std::uint32_t id, const Frame& frame) {
   records_.add_property(id, OniRecordType::string_property, kWrittenBy, version.bytes());
 }
 
-// The field of view for other players, and the exact camera for ours.
+// The field of view for other players, and the exact camera for Saccade.
 void OniWriter::add_intrinsics(std::uint32_t id, const Frame& frame) {
   const Intrinsics& camera = frame.intrinsics;
   if (!camera.valid()) return;
@@ -140,7 +140,7 @@ void OniWriter::add_intrinsics(std::uint32_t id, const Frame& frame) {
   records_.add_int(id, kIntrinsicsGuessed, camera.origin == IntrinsicsOrigin::guess ? 1 : 0);
 }
 
-// Depth in mm to steps of the unit, in stored_.
+// Converts depth in mm to units, in stored_.
 void OniWriter::store_depth(const cv::Mat1f& depth_mm) {
   const float steps_per_mm = fine_unit_ ? 10.0f : 1.0f;
   bool rounded = false;
@@ -175,7 +175,7 @@ void OniWriter::encode_depth() {
                  records_.name(), "its values are too many or too large; use --depth-codec none");
 }
 
-// False if the frame has none that belongs to the file.
+// False if the frame has no colour for the file.
 bool OniWriter::encode_colour(const cv::Mat3b& colour) {
   if (!has_colour_) return false;
   if (colour.size() != size_) {
@@ -199,7 +199,7 @@ void OniWriter::write(const Frame& frame) {
   if (frame.size() != size_)
     throw failed(fmt::format("the image size changed from {} x {} to {} x {}", size_.width, size_.height,
                              frame.size().width, frame.size().height),
-                 records_.name(), "a recording has one size; record again");
+                 records_.name(), "a recording has one image size; start a new one");
   store_depth(frame.depth_mm);
   encode_depth();
   const bool with_colour = encode_colour(frame.colour);
@@ -225,9 +225,8 @@ void OniWriter::note_dropped(std::uint64_t total) { counts_.dropped = total; }
 
 void OniWriter::stop_for_full_disk() {
   close();
-  throw failed(
-      "disk full", records_.name(),
-      fmt::format("the {} frames before are safe and the file is closed; free some space", counts_.frames));
+  throw failed("disk full", records_.name(),
+               fmt::format("the file is closed with the {} frames before; free some space", counts_.frames));
 }
 
 void OniWriter::add_closing_properties() {
@@ -240,7 +239,7 @@ void OniWriter::close() {
   closed_ = true;
   if (counts_.frames == 0) {
     records_.remove();
-    throw failed("nothing was recorded", records_.name(), "no frame came; the empty file was removed");
+    throw failed("nothing was recorded", records_.name(), "no frame arrived; the empty file was removed");
   }
   add_closing_properties();
   records_.close();

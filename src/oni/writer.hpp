@@ -16,8 +16,8 @@ namespace saccade {
 
 enum class OniDepthCodec { z16t, z16p, none };
 enum class OniColourCodec { jpeg, none, off };
-/// One stored step of depth. `automatic`: 0.1 mm if the first frame has fractions of a millimetre and reaches
-/// no further than 6553.5 mm, else 1 mm.
+/// The unit of stored depth. `automatic`: 0.1 mm if the first frame has fractions of a millimetre and no
+/// depth beyond 6553.5 mm, else 1 mm.
 enum class OniDepthUnit { automatic, mm1, um100 };
 
 struct OniWriterOptions {
@@ -25,57 +25,57 @@ struct OniWriterOptions {
   OniColourCodec colour_codec = OniColourCodec::jpeg;
   OniDepthUnit depth_unit = OniDepthUnit::automatic;
   int jpeg_quality = 90;  ///< 1..100
-  double rate_hz = 0;     ///< nominal, 0 = unknown: 30 is written, since players need a number
-  /// Make a colour stream even if the first frame has no colour; for cameras whose colour starts later.
+  double rate_hz = 0;     ///< nominal, 0 = unknown: writes 30, since players need a number
+  /// Adds a colour stream even if the first frame has no colour; for cameras whose colour starts later.
   bool expect_colour = false;
   bool overwrite = false;
 };
 
-/// What became of the frames that were given to a writer.
+/// Counts of a recording.
 struct OniWriterCounts {
   std::uint64_t frames = 0;   ///< written
-  std::uint64_t dropped = 0;  ///< as told by note_dropped()
+  std::uint64_t dropped = 0;  ///< the number of note_dropped()
   std::uint64_t rounded = 0;  ///< frames with depth that is no multiple of the unit
   double largest_rounding_mm = 0;
   std::uint64_t out_of_range_pixels = 0;  ///< too far for the unit; stored as no reading
   std::uint64_t colourless = 0;           ///< frames without colour although the file has a colour stream
-  std::uint64_t unsynced = 0;             ///< written frames that a power cut now could take
-  std::uint64_t most_unsynced = 0;        ///< the largest number of those at any time
+  std::uint64_t unsynced = 0;             ///< written frames that a power failure now would take
+  std::uint64_t most_unsynced = 0;        ///< the largest value of `unsynced` so far
 };
 
-/// Records frames to an .oni file that survives the program: killed at any moment, at most the frame that
-/// is being written is lost, and a full disk leaves a closed file of all frames before. After a power cut,
-/// all frames before the last sync() are there.
+/// Records frames to an .oni file (README 9) that survives the program: a process killed at any moment loses
+/// at most the frame being written, and a full disk leaves a closed file of all frames before. A power
+/// failure takes only frames after the last sync().
 ///
-/// Depth in whole steps of the unit is stored bit for bit: integer millimetres up to 65535 in a 1 mm file,
-/// tenths up to 6553.5 mm in a 0.1 mm one. Other depth (of a synthetic scene without a sensor's
-/// quantisation) is rounded to the unit, and counted, told and noted in the file. Times are kept relative to
-/// the first frame, with one origin for depth and colour; camera, drops and rounding are kept as properties
-/// that other players pass over. Thread safety: one call at a time per object.
+/// Depth in multiples of the unit is stored bit for bit: integer millimetres up to 65535 in a 1 mm file,
+/// tenths up to 6553.5 mm in a 0.1 mm file. Other depth (a synthetic scene without a sensor's quantisation)
+/// is rounded to the unit; such frames are counted and noted in the file. Times are relative to the first
+/// frame, with one origin for depth and colour. Camera, drops and rounding are stored as properties that
+/// other players skip. Thread safety: one call at a time per object.
 class OniWriter {
  public:
   /// Creates the file, still empty. Throws Error (usage) if it exists and is not to be overwritten, Error
   /// (failed) if it cannot be created; std::invalid_argument for a quality out of range.
   OniWriter(const std::filesystem::path& path, const OniWriterOptions& options);
-  /// Closes the file if nobody did, ignoring errors; a file without a frame is removed.
+  /// Closes the file if close() was not called, and ignores errors; removes a file without a frame.
   ~OniWriter();
   OniWriter(const OniWriter&) = delete;
   OniWriter& operator=(const OniWriter&) = delete;
 
-  /// Writes a frame, which from here on outlives the program, but a power cut only after sync(). The first
-  /// one decides the size, the unit and whether there is colour. Throws Error (failed) for a full disk, after
-  /// closing the file with all frames before; for another size than the first frame's; for depth that the
-  /// codec cannot hold (more than 32768 different values in 16zT, a jump to a value >= 32768 in 16zP), with
-  /// the file unchanged.
+  /// Writes a frame. It then survives the process, and a power failure after sync(). The first frame decides
+  /// the size, the unit and whether there is colour. Throws Error (failed): the disk is full, after closing
+  /// the file with all frames before; the size differs from the first frame's, or the codec cannot hold the
+  /// depth (more than 32768 distinct values in 16zT, a jump to 32768 or more in 16zP).
+  /// In the last two cases the file is unchanged.
   void write(const Frame& frame);
 
-  /// Waits until all frames so far are on the disk. Throws Error (failed).
+  /// Waits until all written frames are on the disk. Throws Error (failed).
   void sync();
 
-  /// The number of frames so far that were captured and will never be written; kept in the file.
+  /// Sets the number of captured frames that will not be written, so far; stored in the file.
   void note_dropped(std::uint64_t total);
 
-  /// Finishes the file. Throws Error (failed), also if nothing was written: then the file is removed.
+  /// Closes the file. Throws Error (failed), also if no frame was written; the file is then removed.
   void close();
 
   const OniWriterCounts& counts() const { return counts_; }

@@ -15,7 +15,7 @@ namespace {
 // Streams of random numbers within one reading.
 enum Stream : std::uint64_t { kPixelStream = 1, kLatticeStream = 2 };
 
-// A number that grows with the image, 1 at least.
+// A length of an image 640 px wide, scaled to this width; at least 1 px.
 int scaled(double at_640, int width) {
   return std::max(1, static_cast<int>(std::lround(at_640 * width / 640)));
 }
@@ -52,7 +52,7 @@ void KinectModel::set_view(const SceneRender& view, const Intrinsics& camera) {
 }
 
 // The projector at x = +baseline sees a point of column c and depth z in its own column c - fx*baseline/z.
-// What is behind the nearest surface of that column is dark.
+// It lights the nearest surface in each of its columns and leaves those behind in shadow (README 5).
 void KinectModel::cast_shadow(const cv::Mat1f& depth_mm, const Intrinsics& camera) {
   constexpr double kNearest_mm = 100;  // nearer surfaces cast the shadow of one at this depth
   const double pull = camera.fx * properties_.baseline_mm;
@@ -71,7 +71,7 @@ void KinectModel::cast_shadow(const cv::Mat1f& depth_mm, const Intrinsics& camer
       int first = column(c, z[c]), last = first;
       if (c + 1 < depth_mm.cols && z[c + 1] > 0 &&
           std::max(z[c], z[c + 1]) < tolerance * std::min(z[c], z[c + 1]))
-        last = std::max(last, column(c + 1, z[c + 1]) - 1);  // one surface has no gaps
+        last = std::max(last, column(c + 1, z[c + 1]) - 1);  // no gaps within a surface
       for (int i = first; i <= last; ++i) {
         float& nearest = lit_[static_cast<std::size_t>(i)];
         nearest = std::min(nearest, z[c]);
@@ -112,6 +112,41 @@ void KinectModel::draw_lattice(std::uint64_t key, int lattice_row, std::vector<f
   for (std::size_t i = 0; i < values.size(); ++i) values[i] = gaussian(mix(row_key + i));
 }
 
+// The correlated noise of an image row, in disparity steps, to noise_. Rows come in order, from 0.
+void KinectModel::draw_smooth_noise(std::uint64_t key, int row) {
+  const int band = row / cell_px_;
+  const auto down = static_cast<std::size_t>(row % cell_px_);
+  if (down == 0) {
+    draw_lattice(key, band, upper_);
+    draw_lattice(key, band + 1, lower_);
+  }
+  const float v = weight_[down];
+  const float row_scale = static_cast<float>(properties_.smooth_noise) * normaliser_[down];
+  std::size_t i = 0, across = 0;
+  for (float& noise : noise_) {
+    const float u = weight_[across];
+    noise =
+        row_scale * normaliser_[across] *
+        ((1 - v) * ((1 - u) * upper_[i] + u * upper_[i + 1]) + v * ((1 - u) * lower_[i] + u * lower_[i + 1]));
+    if (++across == weight_.size()) across = 0, ++i;
+  }
+}
+
+// The reading of a pixel in mm, 0 = none. `bits`: its random number.
+float KinectModel::sense_pixel(int row, int col, std::uint64_t bits) const {
+  float exact = steps_(row, col);
+  if (edge_(row, col)) {  // the matching window covers both sides of the edge, and either may win
+    const int dr = static_cast<int>(bits % 3) - 1, dc = static_cast<int>(bits / 3 % 3) - 1;
+    exact = steps_(std::clamp(row + dr, 0, steps_.rows - 1), std::clamp(col + dc, 0, steps_.cols - 1));
+  }
+  if (exact == 0 || (bits >> 48) < loss_(row, col)) return 0;
+  const float step = exact + noise_[static_cast<std::size_t>(col)] +
+                     static_cast<float>(properties_.white_noise) * gaussian(bits);
+  const int rounded = cvRound(step);
+  const bool in_range = rounded > 0 && rounded < static_cast<int>(depth_of_step_.size());
+  return in_range ? depth_of_step_[static_cast<std::size_t>(rounded)] : 0;
+}
+
 void KinectModel::sense(std::uint64_t key, cv::Mat1f& depth_mm) {
   if (steps_.empty()) throw std::logic_error("KinectModel: sense() before set_view()");
   const int rows = steps_.rows, cols = steps_.cols;
@@ -120,41 +155,11 @@ void KinectModel::sense(std::uint64_t key, cv::Mat1f& depth_mm) {
   upper_.resize(static_cast<std::size_t>(cols / cell_px_) + 2);
   lower_.resize(upper_.size());
   noise_.resize(static_cast<std::size_t>(cols));
-  const auto smooth = static_cast<float>(properties_.smooth_noise),
-             white = static_cast<float>(properties_.white_noise);
-  const int last_step = static_cast<int>(depth_of_step_.size()) - 1;
-
   for (int r = 0; r < rows; ++r) {
-    const int band = r / cell_px_;
-    const auto down = static_cast<std::size_t>(r % cell_px_);
-    if (down == 0) {
-      draw_lattice(lattice_key, band, upper_);
-      draw_lattice(lattice_key, band + 1, lower_);
-    }
-    const float v = weight_[down], row_scale = smooth * normaliser_[down];
-    std::size_t i = 0, across = 0;
-    for (int c = 0; c < cols; ++c) {
-      const float u = weight_[across];
-      noise_[static_cast<std::size_t>(c)] = row_scale * normaliser_[across] *
-                                            ((1 - v) * ((1 - u) * upper_[i] + u * upper_[i + 1]) +
-                                             v * ((1 - u) * lower_[i] + u * lower_[i + 1]));
-      if (++across == weight_.size()) across = 0, ++i;
-    }
+    draw_smooth_noise(lattice_key, r);
     const std::uint64_t row_key = mix(pixel_key, static_cast<std::uint64_t>(r));
-    for (int c = 0; c < cols; ++c) {
-      const std::uint64_t bits = mix(row_key + static_cast<std::uint64_t>(c));
-      float exact = steps_(r, c);
-      if (edge_(r, c)) {  // the matching window straddles the edge: either side may win
-        const int dr = static_cast<int>(bits % 3) - 1, dc = static_cast<int>(bits / 3 % 3) - 1;
-        exact = steps_(std::clamp(r + dr, 0, rows - 1), std::clamp(c + dc, 0, cols - 1));
-      }
-      float& z = depth_mm(r, c);
-      z = 0;
-      if (exact == 0 || (bits >> 48) < loss_(r, c)) continue;
-      const float step = exact + noise_[static_cast<std::size_t>(c)] + white * gaussian(bits);
-      const int whole = cvRound(step);
-      if (whole > 0 && whole <= last_step) z = depth_of_step_[static_cast<std::size_t>(whole)];
-    }
+    for (int c = 0; c < cols; ++c)
+      depth_mm(r, c) = sense_pixel(r, c, mix(row_key + static_cast<std::uint64_t>(c)));
   }
 }
 

@@ -13,7 +13,7 @@ constexpr std::uint64_t mix(std::uint64_t x) {
   return x ^ (x >> 31);
 }
 
-/// One key from two, for nested streams: of a seed, of a frame of it, of a row of that.
+/// Combines two keys, for nested streams: the seed with the frame, the result with the row.
 constexpr std::uint64_t mix(std::uint64_t a, std::uint64_t b) { return mix(mix(a) ^ b); }
 
 /// Uniform in [0, 1) from the upper 53 bits.
@@ -27,16 +27,17 @@ constexpr float gaussian(std::uint64_t bits) {
   return static_cast<float>(sum - 2 * 4095) * 4.22852e-4f;            // 1 / sqrt(4 * (4096^2 - 1) / 12)
 }
 
-/// A stream of random numbers for laying out a scene. The order of draws is part of a scene: at most one draw
-/// among the arguments of a call, since their order of evaluation is the compiler's; braces keep theirs.
+/// A stream of random numbers for the layout of a scene. The order of draws decides the scene, so a call has
+/// at most one draw among its arguments: their order of evaluation is fixed only in braces.
 class Random {
  public:
   explicit Random(std::uint64_t seed) : key_(mix(seed)) {}
 
   std::uint64_t bits() { return mix(key_, count_++); }
+  /// Uniform in [low, high).
   double between(double low, double high) { return low + (high - low) * uniform(bits()); }
-  /// Whole number in [low, high].
-  int whole(int low, int high) {
+  /// Uniform integer in [low, high].
+  int integer(int low, int high) {
     return low + static_cast<int>(uniform(bits()) * static_cast<double>(high - low + 1));
   }
   bool chance(double probability) { return uniform(bits()) < probability; }

@@ -9,7 +9,7 @@
 namespace saccade::scene {
 namespace {
 
-// Pixels whose rays may touch a ball: found from the tangents to its circle in the x-z and y-z planes.
+// Pixels whose rays may touch a ball, from the tangents to its circle in the x-z and y-z planes.
 struct Span {
   int begin, end;
 };
@@ -20,7 +20,7 @@ Span covered(double across, double forward, double radius, double focal, double 
   if (square <= 0 || forward <= radius) return {0, size};  // the camera is within or beside the ball
   const double tangent = radius / std::sqrt(square);
   const double slope = across / forward;
-  // tan(angle -+ half opening); a tangent behind the camera has no image, the border stands for it.
+  // tan(angle -+ half opening); for a tangent behind the camera it is the image border.
   const auto edge = [&](double half, double outside) {
     const double below = 1 - slope * half;
     return below > 0 ? (slope + half) / below * focal + centre : outside;

@@ -7,7 +7,7 @@ namespace {
 
 constexpr double kHalfWidth = 2100, kBack = 2600, kFront = -2600, kCeiling = 2600;  // the room, mm
 
-// Adds parts at a place on the floor, turned about z, all with one label.
+// Adds parts with one label at a place on the floor, turned about z.
 class Furniture {
  public:
   Furniture(Scene& scene, int label, const Vector3d& place, double turn_degrees)
@@ -19,7 +19,7 @@ class Furniture {
                             finish.texture, finish.gloss});
     return *this;
   }
-  /// A box given by its middle on the floor below it, its lower end and its whole sides.
+  /// A box: x and y of its middle, z of its lower face, and the lengths of its sides.
   Furniture& block(double x, double y, double z, double width, double depth, double height,
                    const Finish& finish) {
     return add(Box{{width / 2, depth / 2, height / 2}}, {x, y, z + height / 2}, finish);
@@ -40,7 +40,7 @@ void add_shell(Scene& scene, double side, Random& random) {
   for (const double x : {-1.0, 1.0})
     shell.block(x * (kHalfWidth + 50), 0, 0, 100, kBack - kFront, kCeiling, wall);
   shell.block(0, 0, kCeiling, 2 * kHalfWidth, kBack - kFront, 100, {{0.8, 0.8, 0.8}});
-  // Flat colours: much to see in the picture, nothing in the depth.
+  // Flat pictures: structure in the image, none in the depth.
   const Finish frame{{0.2, 0.25, 0.3}};
   for (int i = 0; i < 2; ++i) {
     const double x = side * (-900 + 760 * i), width = random.between(420, 560);
@@ -132,7 +132,7 @@ void lay_out_room(Scene& scene, Random& random) {
   add_shell(scene, side, random);
 
   const Vector3d sofa(side * -480, 1950 + random.between(-60, 60), 0);
-  const cv::Vec3d cloth = object_colour(random, random.whole(0, 9));
+  const cv::Vec3d cloth = object_colour(random, random.integer(0, 9));
   add_sofa(Furniture(scene, ++label, sofa, 0), {0.8 * cloth, Texture::speckled, 0});
   for (const double x : {-1.0, 1.0}) {  // cushions
     const double place = x * random.between(420, 560), lean = x * random.between(5, 25);

@@ -81,7 +81,7 @@ Scene make_scene(std::string_view name, const SceneOptions& options) {
   scene.name = name;
   Random random(mix(options.seed, 1));
   if (name == "table")
-    lay_out_table(scene, options.objects.value_or(random.whole(5, 9)), random);
+    lay_out_table(scene, options.objects.value_or(random.integer(5, 9)), random);
   else if (name == "room")
     lay_out_room(scene, random);
   else

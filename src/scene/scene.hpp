@@ -13,10 +13,10 @@
 
 namespace saccade::scene {
 
-/// How the colour of a surface varies with the position on it.
+/// How the colour of a surface varies over it.
 enum class Texture { plain, speckled, checked, striped, planks };
 
-/// One body of a scene with its place and look. Bodies that share a label are one object.
+/// One body of a scene with its place and appearance. Bodies that share a label are one object.
 struct Part {
   Shape shape;
   Vector3d position_mm;  ///< of the shape's frame, in the world
@@ -32,8 +32,8 @@ struct Pose {
   Matrix3d rotation;  ///< camera to world; its columns are the camera's axes
   Vector3d position_mm;
 
-  /// The pose at `eye` with `target` in the middle of the picture and no roll. Eye and target are not above
-  /// one another.
+  /// The pose at `eye` with `target` in the middle of the image and no roll. `eye` and `target` must not lie
+  /// on one vertical line.
   static Pose look_at(const Vector3d& eye, const Vector3d& target);
 };
 
@@ -44,19 +44,19 @@ struct Scene {
   Vector3d light_mm;   ///< position of the lamp
   Vector3d eye_mm;     ///< the camera of frame 0
   Vector3d target_mm;  ///< what it looks at, and the centre of its orbit
-  double sway_rad;     ///< how far a moving camera swings to either side
+  double sway_rad;     ///< largest angle of a moving camera to either side
   int objects = 0;     ///< the largest label
 
-  /// The camera of a moving camera's time: a slow swing about the target, with a smaller rise and fall, back
-  /// at the start after `kOrbitPeriod_s`. Time 0 is the still camera.
+  /// The pose of a moving camera at a time: a slow swing about the target, with a smaller rise and fall and a
+  /// period of `kOrbitPeriod_s`. Time 0 is the still camera.
   Pose camera_at(double time_s) const;
 };
 
 constexpr double kOrbitPeriod_s = 8;
 
 struct SceneOptions {
-  std::uint64_t seed = 0;             ///< placement and colours
-  std::optional<int> objects;         ///< table only: how many, 1..kMostTableObjects; default by seed, 5..9
+  std::uint64_t seed = 0;      ///< placement and colours
+  std::optional<int> objects;  ///< number, table only, 1..kMostTableObjects; default 5..9, from the seed
   std::optional<double> distance_mm;  ///< from the camera to the target; default of each scene
 };
 
@@ -65,11 +65,11 @@ constexpr int kMostTableObjects = 20;
 /// cone, cube, cylinder, sphere, table, room.
 std::span<const std::string_view> scene_names();
 
-/// Builds a scene; the same options give the same scene. The four shapes stand alone before a plain wall, as
-/// in Fig. 3 of the paper. `table` is a table top seen at 38 degrees from above with boxes, balls, cylinders,
-/// cones and bowls that do not intersect; table, wall and floor are background. `room` is a furnished room:
-/// each piece of furniture is one object, flat pictures on the wall are background.
-/// Throws std::invalid_argument: unknown name, `objects` out of range or for another scene than table,
+/// Builds a scene (README 1); the same options give the same scene. Each of the four shapes stands before a
+/// plain wall, as in Fig. 3 of the paper. `table` is a table top seen at 38 degrees from above with boxes,
+/// balls, cylinders, cones and bowls that do not intersect; table, wall and floor are background. `room` is a
+/// furnished room: each piece of furniture is one object, flat pictures on the wall are background.
+/// Throws std::invalid_argument: unknown name, `objects` out of range or for a scene other than table,
 /// `distance_mm` not positive.
 Scene make_scene(std::string_view name, const SceneOptions& options);
 

@@ -9,7 +9,7 @@
 namespace saccade::scene {
 namespace {
 
-// Balls around what may stand between the lamp and a surface, to reject most of it quickly.
+// A ball around parts that may stand between the lamp and a surface, to reject most of them quickly.
 struct Ball {
   Vector3d centre = Vector3d::Zero();
   double radius = 0;

@@ -10,7 +10,7 @@ namespace saccade::scene {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-/// The bodies a scene is made of, each in a frame of its own, lengths in mm.
+/// The bodies of a scene, each in a frame of its own, lengths in mm.
 
 /// Ball about the origin.
 struct Sphere {
@@ -25,7 +25,7 @@ struct Box {
 struct Frustum {
   double bottom, top, height;
 };
-/// Lower half of a hollow ball about the origin: the rim lies in z = 0, the opening looks to +z.
+/// Lower half of a hollow ball about the origin: the rim lies in z = 0, the opening faces +z.
 struct Bowl {
   double outer, inner;  ///< radii, inner < outer
 };
@@ -51,7 +51,7 @@ Hit intersect(const Box& box, const Ray& ray);
 Hit intersect(const Frustum& frustum, const Ray& ray);
 Hit intersect(const Bowl& bowl, const Ray& ray);
 
-/// A ball that holds the whole shape.
+/// A ball that contains the whole shape.
 struct Bound {
   Vector3d centre;
   double radius;

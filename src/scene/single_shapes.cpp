@@ -4,11 +4,11 @@
 
 namespace saccade::scene {
 
-// The shapes of Fig. 3 in the middle of the picture, 170 to 240 px across at a width of 640. The wall is so
-// far behind that no window of the operator takes it for the same surface.
+// The shapes of Fig. 3 of the paper in the middle of the image, 170 to 240 px across at a width of 640. The
+// wall is so far behind that no window of the operator joins the two.
 void lay_out_shape(Scene& scene, std::string_view name, Random& random) {
   constexpr double kDistance_mm = 900, kWall_mm = 2200;
-  const cv::Vec3d colour = object_colour(random, random.whole(0, 99));
+  const cv::Vec3d colour = object_colour(random, random.integer(0, 99));
   const Vector3d origin = Vector3d::Zero();
   if (name == "sphere")
     scene.parts.push_back({Sphere{200}, origin, Matrix3d::Identity(), 1, colour, Texture::speckled, 0.4});

@@ -8,11 +8,11 @@
 namespace saccade::scene {
 namespace {
 
-// The table top, mm; its near edge is out of the picture.
+// The table top, mm; its near edge is outside the image.
 constexpr double kHalfWidth = 700, kNear = -900, kFar = 480, kThickness = 30, kHeight = 740;
-// Where objects stand, mm: narrower towards the camera, so that the camera of frame 0 sees all of it.
+// Where objects stand, mm: narrower towards the camera, so that all are in the image of frame 0.
 constexpr double kNear_y = -200, kNear_x = 240, kFar_y = 290, kFar_x = 360;
-constexpr double kGap = 8;  // kept free between two objects, mm
+constexpr double kGap = 8;  // least distance between two objects, mm
 
 // A circle on the table that an object stays within.
 struct Place {
@@ -68,7 +68,7 @@ Piece cone_piece(Random& random) {
 
 Piece bowl_piece(Random& random) {
   const double outer = random.between(55, 85);
-  // Sunk a little into a foot that it stands on.
+  // The bowl stands on a foot and sinks into it a little.
   return {{{Bowl{outer, outer - 5}, {0, 0, outer + 6}, Matrix3d::Identity(), 0, {}, Texture::plain, 0.4},
            {Frustum{0.5 * outer, 0.45 * outer, 12},
             Vector3d::Zero(),
@@ -97,11 +97,11 @@ Piece make_piece(int kind, Random& random) {
   }
 }
 
-// Somewhere on the table where a circle is free; false after many trials.
+// Finds a free circle on the table; false after many trials.
 bool find_place(const std::vector<Place>& taken, double radius, Random& random, Place& place) {
   constexpr int kTrials = 400;
   for (int trial = 0; trial < kTrials; ++trial) {
-    // Early trials stay near the middle, so that the picture is cluttered.
+    // Early trials stay near the middle, so that the image is cluttered.
     const double reach = 0.7 + 0.3 * trial / kTrials;
     const double y = random.between(kNear_y, kFar_y);
     const double reach_x = kNear_x + (kFar_x - kNear_x) * (y - kNear_y) / (kFar_y - kNear_y);
@@ -144,7 +144,7 @@ void add_surroundings(Scene& scene, Random& random) {
 void lay_out_table(Scene& scene, int objects, Random& random) {
   add_surroundings(scene, random);
   std::vector<Place> taken;
-  const int first_kind = random.whole(0, 5);
+  const int first_kind = random.integer(0, 5);
   for (int label = 1; label <= objects; ++label) {
     // The kinds take turns, so that a scene shows most of them.
     Piece piece = make_piece((first_kind + label) % 6, random);

@@ -21,13 +21,13 @@ Bytes encode(Codec16z codec, const Pixels& pixels) {
   return payload;
 }
 
-// The fast decoder and the reference agree on everything: what is whole, and on all pixels.
+// The fast decoder and the reference agree on whether the payload is good, and on all pixels.
 void expect_as_reference(Codec16z codec, const Bytes& payload, std::size_t room) {
   Pixels pixels(room);
   Decoder16z decoder;
   const Decoded16z decoded = decoder.decode(codec, payload, pixels);
   const auto reference = reference_16z(payload, codec == Codec16z::table, room);
-  ASSERT_EQ(decoded.fault == nullptr, reference.has_value()) << (decoded.fault ? decoded.fault : "whole");
+  ASSERT_EQ(decoded.fault == nullptr, reference.has_value()) << (decoded.fault ? decoded.fault : "good");
   if (!reference) return;
   pixels.resize(decoded.pixels);
   ASSERT_EQ(pixels, *reference);
@@ -43,14 +43,14 @@ void expect_round_trip(Codec16z codec, const Pixels& pixels) {
   expect_as_reference(codec, payload, pixels.size());
 }
 
-TEST(Codec16z, CodesTheTinySampleWithTheRightEnd) {
-  // 0,0,0,810 / 0,811,811,811 in the table 0, 810, 811 would end in 57 E1 4D: the run before the last nibble.
+TEST(Codec16z, EncodesTheRunBeforeTheLastNibble) {
+  // Symbols 0; 0 0 (a run); 1 0; 0 0 (a run); 2 alone, with low nibble 13.
   const Bytes expected = {3, 0, 0, 0, 0x2a, 3, 0x2b, 3, 0, 0, 0xe1, 0x57, 0xe1, 0x4d};
   EXPECT_EQ(encode(Codec16z::table, {0, 0, 0, 810, 0, 0, 0, 811}), expected);
 }
 
-TEST(Codec16z, DecodesWhatTheStockEncoderWrites) {
-  // The stock encoder puts the last nibble before the run; that is how the pixels then are.
+TEST(Codec16z, DecodesTheStockEncodersWrongEndAsItIs) {
+  // The stock encoder writes the last nibble before the run and so alters the pixels; see README 11.
   const Bytes stock = {3, 0, 0, 0, 0x2a, 3, 0x2b, 3, 0, 0, 0xe1, 0x57, 0x4d, 0xe1};
   Pixels pixels(8);
   Decoder16z decoder;
@@ -96,13 +96,13 @@ TEST(Codec16z, TableHoldsAnyValueUpTo65535) {
   expect_round_trip(Codec16z::table, pixels);
 }
 
-TEST(Codec16z, RefusesWhatTheFormatCannotHold) {
+TEST(Codec16z, RefusesFramesThatTheFormatCannotHold) {
   Encoder16z encoder;
   Bytes payload = {7};
   EXPECT_FALSE(encoder.encode(Codec16z::plain, Pixels{0, 40000}, payload));
-  EXPECT_EQ(payload, Bytes{7}) << "nothing may be appended";
+  EXPECT_EQ(payload, Bytes{7}) << "the payload must not change";
   EXPECT_TRUE(encoder.encode(Codec16z::plain, Pixels{40000, 40001, 39999}, payload))
-      << "small steps up there are fine";
+      << "small steps between large depths are possible";
   Pixels all(65536);
   for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<std::uint16_t>(i * 40503);
   EXPECT_FALSE(encoder.encode(Codec16z::table, all, payload));
@@ -115,7 +115,7 @@ TEST(Codec16z, AgreesWithTheReferenceOnGarbage) {
     Bytes payload(random() % 80);
     for (auto& byte : payload) byte = static_cast<std::uint8_t>(random());
     const bool table = random() % 2 == 0;
-    if (table && payload.size() >= 2) {  // a table that fits, so that the symbols are reached
+    if (table && payload.size() >= 2) {  // a table that fits, so that decoding reaches the symbols
       payload[0] = static_cast<std::uint8_t>(random() % 20);
       payload[1] = 0;
     }
@@ -159,7 +159,7 @@ TEST(Codec16z, AgreesWithTheReferenceWhereSymbolsWrap) {
     }
 }
 
-TEST(Codec16z, ATableOfFewerValuesForgetsTheOneBefore) {
+TEST(Codec16z, ASmallerTableReplacesAllValuesOfTheOneBefore) {
   Decoder16z decoder;
   Pixels pixels(4);
   const auto decode = [&](const Pixels& values, std::uint8_t symbol) {

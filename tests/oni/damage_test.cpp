@@ -31,7 +31,7 @@ class DamageTest : public OniFiles {
       frame_ends_.push_back(frame.payload_position + frame.payload_size);
   }
 
-  // All depth frames that the file gives are frames that were recorded; returns which.
+  // The recorded frames that equal a readable depth frame of the file, in its order.
   std::vector<int> frames_of(const std::filesystem::path& file) {
     Recording recording(file);
     std::vector<int> found;
@@ -66,7 +66,7 @@ std::vector<int> first_frames(int count) {
   return frames;
 }
 
-TEST_F(DamageTest, CutAtAnyByteAllWholeFramesRemain) {
+TEST_F(DamageTest, TruncatedAtAnyByteAllCompleteFramesRemain) {
   ASSERT_TRUE(sound(path("whole.oni")));
   const std::size_t first_frame = frame_ends_.front();
   for (std::size_t cut = 0; cut < whole_.size(); ++cut) {
@@ -78,13 +78,13 @@ TEST_F(DamageTest, CutAtAnyByteAllWholeFramesRemain) {
     const auto there =
         std::count_if(frame_ends_.begin(), frame_ends_.end(), [&](auto end) { return end <= cut; });
     ASSERT_EQ(frames_of(path("cut.oni")), first_frames(static_cast<int>(there))) << "cut at " << cut;
-    // Repair waits for the disk, so not at every byte; but at each end of a frame.
+    // Repair waits for the disk, so it runs at a few bytes and at each end of a frame.
     const bool at_end = std::find(frame_ends_.begin(), frame_ends_.end(), cut) != frame_ends_.end();
     if (cut < first_frame || (cut % 41 != 0 && !at_end)) continue;
     ASSERT_FALSE(cut < frame_ends_.back() && sound(path("cut.oni"))) << "cut at " << cut;
-    repair_recording(path("cut.oni"), path("mended.oni"), true);
-    ASSERT_EQ(frames_of(path("mended.oni")), first_frames(static_cast<int>(there))) << "cut at " << cut;
-    ASSERT_TRUE(sound(path("mended.oni"))) << "cut at " << cut << "\n" << problems_of(path("mended.oni"));
+    repair_recording(path("cut.oni"), path("repaired.oni"), true);
+    ASSERT_EQ(frames_of(path("repaired.oni")), first_frames(static_cast<int>(there))) << "cut at " << cut;
+    ASSERT_TRUE(sound(path("repaired.oni"))) << "cut at " << cut << "\n" << problems_of(path("repaired.oni"));
   }
 }
 
@@ -92,7 +92,7 @@ TEST_F(DamageTest, ADestroyedStretchCostsOnlyTheFramesItTouches) {
   const Recording recording(path("whole.oni"));
   const auto& frames = main_depth(recording)->frames;
   for (const std::size_t length : {1u, 4u, 30u, 200u}) {
-    // The second frame's record header, wholly or in part.
+    // The record header of the second frame, or a part of it.
     Bytes damaged = whole_;
     const std::size_t begin = frames[1].payload_position - 40;
     std::fill_n(damaged.begin() + static_cast<std::ptrdiff_t>(begin), length, std::uint8_t{0xA5});
@@ -100,14 +100,14 @@ TEST_F(DamageTest, ADestroyedStretchCostsOnlyTheFramesItTouches) {
     EXPECT_EQ(frames_of(path("d.oni")), (std::vector<int>{0, 2, 3})) << length;
     EXPECT_FALSE(sound(path("d.oni")));
     EXPECT_THAT(problems_of(path("d.oni")), HasSubstr(std::to_string(begin) + " "));
-    const OniRepairReport report = repair_recording(path("d.oni"), path("mended.oni"), true);
+    const OniRepairReport report = repair_recording(path("d.oni"), path("repaired.oni"), true);
     EXPECT_GT(report.lost_bytes, 0u);
-    EXPECT_EQ(frames_of(path("mended.oni")), (std::vector<int>{0, 2, 3}));
-    EXPECT_TRUE(sound(path("mended.oni"))) << problems_of(path("mended.oni"));
+    EXPECT_EQ(frames_of(path("repaired.oni")), (std::vector<int>{0, 2, 3}));
+    EXPECT_TRUE(sound(path("repaired.oni"))) << problems_of(path("repaired.oni"));
   }
 }
 
-TEST_F(DamageTest, AWrongLengthDoesNotSwallowWhatFollows) {
+TEST_F(DamageTest, AWrongLengthDoesNotHideTheRecordsThatFollow) {
   const Recording recording(path("whole.oni"));
   const std::size_t at = main_depth(recording)->frames[1].payload_position - 40;
   for (const std::size_t field : {at + 12, at + 16}) {  // fieldsSize, payloadSize
@@ -161,14 +161,14 @@ TEST_F(DamageTest, WrongTablesAndCountsAreFoundAndNotUsed) {
     return problems_of(path("d.oni"));
   };
   const std::uint64_t counts = node.position + 28 + 4 + 6 + 4 + 4;  // header, "Depth", type, codec
-  EXPECT_THAT(with(counts, 0x00000000FFFFFFFF), HasSubstr("declares 4294967295 frames, 4 are there"));
-  EXPECT_THAT(with(counts + 20, 99), HasSubstr("says its table is at 99"));
+  EXPECT_THAT(with(counts, 0x00000000FFFFFFFF), HasSubstr("declares 4294967295 frames and has 4"));
+  EXPECT_THAT(with(counts + 20, 99), HasSubstr("declares its table at 99"));
   EXPECT_THAT(with(table + 28 + 20 + 12, 5), HasSubstr("is wrong from frame 0 on"));
   EXPECT_THAT(with(12, 7), HasSubstr("largest time"));
   EXPECT_THAT(with(20, 0x0052494E00000001), HasSubstr("largest node id"));  // and the next record's magic
 }
 
-TEST_F(DamageTest, RepairNeverTouchesTheOriginalNorAnExistingFile) {
+TEST_F(DamageTest, RepairChangesNeitherTheOriginalNorAnExistingFile) {
   EXPECT_THROW(repair_recording(path("whole.oni"), path("whole.oni"), true), Error);
   write_bytes(path("other"), Bytes{1});
   EXPECT_THROW(repair_recording(path("whole.oni"), path("other"), false), Error);
@@ -178,20 +178,20 @@ TEST_F(DamageTest, RepairNeverTouchesTheOriginalNorAnExistingFile) {
   EXPECT_EQ(frames_of(path("copy.oni")), first_frames(kFrames));
 }
 
-TEST_F(DamageTest, RepairLeavesBadFramesOut) {
+TEST_F(DamageTest, RepairOmitsBadFrames) {
   const Recording recording(path("whole.oni"));
   const OniFrameEntry& frame = main_depth(recording)->frames[2];
   Bytes damaged = whole_;
   // An index beyond the table of values.
   store_le<std::uint16_t>(damaged.data() + frame.payload_position, 1);
   write_bytes(path("d.oni"), damaged);
-  const OniRepairReport report = repair_recording(path("d.oni"), path("mended.oni"), false);
+  const OniRepairReport report = repair_recording(path("d.oni"), path("repaired.oni"), false);
   EXPECT_EQ(report.bad_frames, 1u);
-  EXPECT_EQ(frames_of(path("mended.oni")), (std::vector<int>{0, 1, 3}));
-  EXPECT_TRUE(sound(path("mended.oni")));
+  EXPECT_EQ(frames_of(path("repaired.oni")), (std::vector<int>{0, 1, 3}));
+  EXPECT_TRUE(sound(path("repaired.oni")));
 }
 
-TEST_F(DamageTest, FramesOfAnUnknownNodeAndNodesAddedTwiceAreTold) {
+TEST_F(DamageTest, FramesOfAnUnknownNodeAndNodesAddedTwiceAreReported) {
   Bytes damaged = whole_;
   store_le<std::uint32_t>(damaged.data() + 24 + 8, 9);  // the id in the first NODE_ADDED
   write_bytes(path("d.oni"), damaged);

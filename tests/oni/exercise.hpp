@@ -16,7 +16,7 @@
 
 namespace saccade {
 
-/// A file in memory that has a path, so that the code under test meets a real file.
+/// A file in memory with a path, so that the code under test opens a real file.
 class MemoryFile {
  public:
   explicit MemoryFile(std::span<const std::uint8_t> bytes) : descriptor_(::memfd_create("oni", MFD_CLOEXEC)) {
@@ -33,9 +33,9 @@ class MemoryFile {
   int descriptor_;
 };
 
-/// Does to a recording of any bytes what the program does: opens, describes and checks it, plays some frames
-/// and seeks. The only outcome besides success is an Error (unreadable) of one line; anything else is a
-/// fault. Returns how many frames played.
+/// Uses any bytes as a recording, as the program does: opens, describes and checks it, plays some frames and
+/// seeks. Besides success, only an Error (unreadable) of one line is allowed; anything else throws. Returns
+/// the number of frames played.
 inline int exercise(std::span<const std::uint8_t> bytes) {
   const MemoryFile file(bytes);
   int played = 0;

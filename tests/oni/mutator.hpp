@@ -12,7 +12,7 @@
 
 namespace saccade {
 
-/// Recordings of every kind of stream that the reader knows, small and made by our own writer.
+/// Small recordings of every kind of stream that the reader knows, made by our own writer.
 inline std::vector<std::vector<std::uint8_t>> seed_recordings(const std::filesystem::path& folder) {
   std::vector<std::vector<std::uint8_t>> seeds;
   const auto file = folder / "seed.oni";
@@ -58,8 +58,8 @@ inline std::vector<std::vector<std::uint8_t>> seed_recordings(const std::filesys
   return seeds;
 }
 
-/// Damages recordings where it hurts: lengths, types, counts, sizes and coded data, records doubled, removed
-/// and swapped. The same seed number gives the same mutants.
+/// Damages recordings: changes types, ids, lengths, sizes and coded data, and removes, repeats and inserts
+/// records. The same seed gives the same mutants.
 class OniMutator {
  public:
   explicit OniMutator(unsigned seed) : random_(seed) {}
@@ -82,7 +82,7 @@ class OniMutator {
     return below(4) == 0 ? random_() : kValues[below(kValues.size())];
   }
 
-  // Where records begin, as far as they are still a chain.
+  // The positions of records, up to the first break of their chain.
   std::vector<std::size_t> records(const std::vector<std::uint8_t>& bytes) const {
     std::vector<std::size_t> starts;
     for (std::size_t at = 24; at + 28 <= bytes.size();) {

@@ -9,15 +9,15 @@ using Bytes = std::vector<std::uint8_t>;
 
 constexpr std::size_t kFileHeader = 24, kRecordHeader = 28, kNarrowHeader = 24, kNameLength = 28;
 
-// A NODE_ADDED of today is its name, type and codec, then u32 frames, two u64 times and a u64 position.
-// How many of these bytes an old program wrote, but for the position.
+// The size of the fields of NODE_ADDED in an old version, without the table position. Today's has name, type
+// and codec, then u32 frames, two u64 times and a u64 table position.
 std::size_t node_fields(const Bytes& file, std::size_t at, std::uint32_t build) {
   const std::size_t first = 4 + load_le<std::uint32_t>(&file[at + kNameLength]) + 8;
   return build == 4 ? first : first + 20;
 }
 
-// Rewrites a file of today as a program of old would have written it (sections 2 and 8 of the format):
-// 24-byte record headers, u32 positions, and before 1.0.0.6 no seek tables and shorter NODE_ADDED records.
+// Converts a file of today to an old version (README 1): 24-byte record headers, u32 positions, other
+// NODE_ADDED records, and no seek tables.
 Bytes as_written_by(std::uint32_t build, const Bytes& file) {
   ByteBuilder out;
   out.put_bytes(std::span(file).first(6));

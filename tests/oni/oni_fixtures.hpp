@@ -33,7 +33,7 @@ inline void write_bytes(const std::filesystem::path& path, std::span<const std::
   file.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
 }
 
-/// A slanted plane with holes and steps, other for each `seed`, in whole millimetres; colour too if wanted.
+/// A slanted plane with holes and steps in integer millimetres, one for each `seed`; colour is optional.
 inline Frame test_frame(int seed, cv::Size size, bool colour) {
   Frame frame;
   frame.index = seed;
@@ -71,7 +71,7 @@ inline bool equal(const cv::Mat& a, const cv::Mat& b) {
   return a.size() == b.size() && a.type() == b.type() && cv::norm(a, b, cv::NORM_INF) == 0;
 }
 
-/// A stream as a test wants it, right or wrong.
+/// A stream for a test, valid or not.
 struct TestStream {
   OniNodeType type = OniNodeType::depth;
   OniCodec codec = OniCodec::none;

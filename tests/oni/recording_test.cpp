@@ -16,7 +16,7 @@ using Bytes = std::vector<std::uint8_t>;
 
 class RecordingTest : public OniFiles {
  protected:
-  // A file of one stream with the given payloads, `properties` added before the first frame.
+  // A file of one stream with these payloads; `properties` may add some before the first frame.
   std::filesystem::path make(const TestStream& stream, const std::vector<Bytes>& payloads,
                              const std::function<void(OniRecordWriter&)>& properties = {}) {
     OniRecordWriter writer(path("made.oni"), true);
@@ -70,7 +70,7 @@ TEST_F(RecordingTest, DepthUnitsBecomeMillimetres) {
   EXPECT_EQ(tenths(1, 2), 6553.5f);
 }
 
-TEST_F(RecordingTest, ShiftsGoThroughTheirTable) {
+TEST_F(RecordingTest, ShiftsAreConvertedByTheirTable) {
   const TestStream stream{.pixels = OniPixelFormat::shift_9_2};
   const Bytes payload = words({0, 1, 2, 3, 2047, 4, 65535, 0, 0, 0, 0, 1});
   const auto file = make(stream, {payload}, [](OniRecordWriter& writer) {
@@ -85,7 +85,7 @@ TEST_F(RecordingTest, ShiftsGoThroughTheirTable) {
   EXPECT_THAT(read_frame(make(stream, {payload})).reason(), HasSubstr("S2D"));
 }
 
-TEST_F(RecordingTest, CroppedFramesLieWhereTheyBelong) {
+TEST_F(RecordingTest, CroppedFramesLieAtTheirPlaceInTheImage) {
   const auto file =
       make({}, {words({11, 12, 13, 14}), words({1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12}), words({1, 2})},
            [](OniRecordWriter& writer) {
@@ -96,7 +96,8 @@ TEST_F(RecordingTest, CroppedFramesLieWhereTheyBelong) {
            });
   const cv::Mat1f cropped = (cv::Mat1f(3, 4) << 0, 0, 0, 0, 0, 11, 12, 0, 0, 13, 14, 0);
   EXPECT_TRUE(equal(depth_of(file, 0), cropped));
-  EXPECT_EQ(depth_of(file, 1)(2, 3), 12.0f) << "a full frame, as after cropping was switched off untold";
+  EXPECT_EQ(depth_of(file, 1)(2, 3), 12.0f)
+      << "a full frame, as after cropping was switched off without a record";
   EXPECT_THAT(read_frame(file, 2).reason(), HasSubstr("instead of 8"));
 }
 
@@ -112,7 +113,7 @@ TEST_F(RecordingTest, ColourFormatsBecomeBgr) {
   const cv::Mat3b ir = colour_of(make(infrared, {words({1023, 4000})}));
   EXPECT_EQ(ir(0, 0), cv::Vec3b(255, 255, 255));
   EXPECT_EQ(ir(0, 1), cv::Vec3b(255, 255, 255));
-  // Grey in both orders of luma and chroma: 128 is no colour.
+  // Grey in both orders of luma and chroma; a chroma of 128 is neutral.
   TestStream yuv = rgb;
   yuv.pixels = OniPixelFormat::yuv422;
   const cv::Vec3b light = colour_of(make(yuv, {{128, 16, 128, 235}}))(0, 1);
@@ -125,7 +126,7 @@ TEST_F(RecordingTest, ColourFormatsBecomeBgr) {
   EXPECT_EQ(colour_of(make(packed, {{50, 0xE2, 0x6D}}))(0, 1), cv::Vec3b(50, 50, 50));
 }
 
-TEST_F(RecordingTest, JpegOfAnotherSizeOrCutIsABadFrame) {
+TEST_F(RecordingTest, AJpegOfAnotherSizeOrTruncatedIsABadFrame) {
   const Frame frame = test_frame(1, {16, 8}, true);
   Bytes payload;
   JpegCodec().encode(frame.colour, 90, payload);
@@ -189,7 +190,7 @@ TEST_F(RecordingTest, CroppingOutsideOfTheImageIsIgnored) {
   EXPECT_TRUE(succeeded(read_frame(file)));
 }
 
-TEST_F(RecordingTest, CameraFromFieldOfViewZeroPlaneOrOurOwnRecord) {
+TEST_F(RecordingTest, CameraComesFromFieldOfViewZeroPlaneOrOurOwnProperty) {
   const auto with = [&](std::string_view name, const std::vector<double>& values) {
     const auto file = make({.width = 640, .height = 480}, {}, [&](OniRecordWriter& writer) {
       ByteBuilder bytes;
@@ -212,7 +213,7 @@ TEST_F(RecordingTest, CameraFromFieldOfViewZeroPlaneOrOurOwnRecord) {
   EXPECT_FALSE(with(oni_property::kIntrinsics, {0, 1, 2, 3}).has_value());
 }
 
-TEST_F(RecordingTest, PropertiesHoldFromTheirPlaceOn) {
+TEST_F(RecordingTest, PropertiesApplyFromTheirPositionOn) {
   OniRecordWriter writer(path("p.oni"), false);
   add_test_stream(writer, 1, {});
   writer.begin();
@@ -254,7 +255,7 @@ TEST_F(RecordingTest, NearestInTimeAgreesWithALinearSearch) {
   }
 }
 
-TEST_F(RecordingTest, WhatIsNoRecordingIsUnreadable) {
+TEST_F(RecordingTest, OtherFilesAreUnreadable) {
   const auto error_of = [&](const std::filesystem::path& file) {
     try {
       const Recording recording(file);

@@ -7,8 +7,8 @@
 
 namespace saccade {
 
-/// The 16-bit codecs, decoded the slow and obvious way: a table of cases, a symbol at a time, every access
-/// checked. Absent if anything is wrong with the payload.
+/// The reference decoder of the 16-bit codecs (README 4.2): one symbol at a time, with every access checked.
+/// Absent for a faulty payload.
 inline std::optional<std::vector<std::uint16_t>> reference_16z(std::span<const std::uint8_t> payload,
                                                                bool with_table, std::size_t room) {
   std::size_t at = 0;

@@ -1,4 +1,4 @@
-// Recordings that other programs made, where they are at hand: what is known of them is written here.
+// Recordings of other programs, with their known contents. Skipped where the files are not available.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Of the bytes of a stored frame, as zlib computes it; bit by bit.
+// The CRC-32 of zlib, bit by bit.
 std::uint32_t crc32(std::span<const std::uint8_t> bytes) {
   std::uint32_t crc = 0xFFFFFFFF;
   for (const std::uint8_t byte : bytes) {
@@ -60,11 +60,11 @@ class OniSamples : public ::testing::Test {
  protected:
   static fs::path shared(const std::string& file) { return fs::path(SACCADE_SHARED_DIR) / file; }
   void SetUp() override {
-    if (!fs::exists(shared("formats/samples/tiny.oni"))) GTEST_SKIP() << "the sample recordings are not here";
+    if (!fs::exists(shared("formats/samples/tiny.oni"))) GTEST_SKIP() << "no sample recordings";
   }
 };
 
-TEST_F(OniSamples, FramesTimesAndPixelsAreAsKnown) {
+TEST_F(OniSamples, FramesTimesAndPixelsAreTheKnownOnes) {
   for (const Sample& sample : kSamples) {
     SCOPED_TRACE(sample.file);
     Recording recording(shared(sample.file));
@@ -83,7 +83,7 @@ TEST_F(OniSamples, FramesTimesAndPixelsAreAsKnown) {
   }
 }
 
-TEST_F(OniSamples, EveryFrameInAnyOrderIsTheFrameOfTheSequence) {
+TEST_F(OniSamples, FramesReadInAnyOrderAreTheSame) {
   for (const Sample& sample : kSamples) {
     SCOPED_TRACE(sample.file);
     Recording recording(shared(sample.file));
@@ -100,7 +100,7 @@ TEST_F(OniSamples, EveryFrameInAnyOrderIsTheFrameOfTheSequence) {
   }
 }
 
-TEST_F(OniSamples, OnlyTheInterruptedOneIsNotSound) {
+TEST_F(OniSamples, AllButTheInterruptedOneAreSound) {
   for (const Sample& sample : kSamples) {
     Recording recording(shared(sample.file));
     EXPECT_EQ(is_sound(check_recording(recording)), sample.file.find("t_kill") == std::string::npos)
@@ -108,7 +108,7 @@ TEST_F(OniSamples, OnlyTheInterruptedOneIsNotSound) {
   }
 }
 
-TEST_F(OniSamples, PicturesAreThoseOfTheStockPlayer) {
+TEST_F(OniSamples, ColourImagesAreThoseOfTheStockPlayer) {
   Recording recording(shared("formats/samples/sample.oni"));
   const OniNode& colour_node = *main_colour(recording);
   for (std::size_t k = 0; k < 7; ++k) {

@@ -1,6 +1,6 @@
-// Plays the depth of a recording with OpenNI2's own player and writes what it gives to a file: for each frame
-// u64 time, u32 number, u32 width, u32 height and the pixels, u16 each. A program of its own, since that
-// player may crash or hang. usage: stock_player FILE.oni OUT
+// Plays the depth of a recording with OpenNI2's own player and writes its frames to a file: for each u64
+// time, u32 number, u32 width, u32 height and the pixels, u16 each. A program of its own, because that player
+// may crash or hang. usage: stock_player FILE.oni OUT
 #include <OpenNI.h>
 
 #include <cstdint>
@@ -29,7 +29,7 @@ int main(int argc, char** argv) {
   if (device.open(argv[1]) != STATUS_OK) return fail("open");
   PlaybackControl* control = device.getPlaybackControl();
   if (control == nullptr) return fail("playback");
-  control->setSpeed(-1);  // each readFrame() gives the next frame
+  control->setSpeed(-1);  // each readFrame() returns the next frame
   control->setRepeatEnabled(false);
   VideoStream depth;
   if (depth.create(device, SENSOR_DEPTH) != STATUS_OK || depth.start() != STATUS_OK)
@@ -49,7 +49,7 @@ int main(int argc, char** argv) {
     out.write(static_cast<const char*>(frame.getData()), frame.getDataSize());
   }
   out.close();
-  // Its shutdown is known to crash; what was played is written already.
+  // Its shutdown may crash; the frames are written already.
   std::fflush(nullptr);
   std::_Exit(0);
 }

@@ -1,5 +1,5 @@
-// What Saccade writes, OpenNI2's own player plays, with the same pixels; and what it plays of other
-// recordings, Saccade reads the same.
+// OpenNI2's own player plays our recordings with the same pixels, and our reader reads other recordings as
+// that player does.
 #include <cstdlib>
 
 #include "oni/recording.hpp"
@@ -91,26 +91,26 @@ TEST_F(StockPlayer, PlaysARepairedRecording) {
   record_test_frames(path("whole.oni"), 10, {80, 60}, true);
   const std::vector<std::uint8_t> whole = read_bytes(path("whole.oni"));
   const Recording recording(path("whole.oni"));
-  // Cut in the seventh depth frame.
+  // Truncated in the seventh depth frame.
   const std::uint64_t cut = main_depth(recording)->frames[6].payload_position + 100;
   write_bytes(path("cut.oni"), std::span(whole).first(cut));
-  repair_recording(path("cut.oni"), path("mended.oni"), false);
-  expect_same(path("mended.oni"), 6);
+  repair_recording(path("cut.oni"), path("repaired.oni"), false);
+  expect_same(path("repaired.oni"), 6);
 }
 
-TEST_F(StockPlayer, PlaysARecordingThatWasKilled) {
+TEST_F(StockPlayer, PlaysTheRepairedRecordingOfAKilledProcess) {
   OniWriter* writer = new OniWriter(path("open.oni"), {});  // never closed, as after kill -9
   for (int k = 0; k < 5; ++k) writer->write(test_frame(k, {80, 60}, false));
   fs::copy_file(path("open.oni"), path("killed.oni"));
   writer->close();
   delete writer;
-  repair_recording(path("killed.oni"), path("mended.oni"), false);
-  expect_same(path("mended.oni"), 5);
+  repair_recording(path("killed.oni"), path("repaired.oni"), false);
+  expect_same(path("repaired.oni"), 5);
 }
 
-TEST_F(StockPlayer, GivesTheSameOfOtherRecordings) {
+TEST_F(StockPlayer, AgreesOnRecordingsOfOtherPrograms) {
   const fs::path shared(SACCADE_SHARED_DIR);
-  if (!fs::exists(shared / "formats/samples/tiny.oni")) GTEST_SKIP() << "the sample recordings are not here";
+  if (!fs::exists(shared / "formats/samples/tiny.oni")) GTEST_SKIP() << "no sample recordings";
   for (const auto& [name, count] : std::map<std::string, std::size_t>{{"formats/samples/ni1_a.oni", 4},
                                                                       {"formats/samples/sample.oni", 6},
                                                                       {"formats/samples/t_crop.oni", 5},

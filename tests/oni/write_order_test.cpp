@@ -1,6 +1,5 @@
-// What reaches the disk, and in which order: the system calls that write are this program's own here. They do
-// what they are asked to and keep a log, from which every state is made that a killed program or a power cut
-// could leave behind.
+// The order in which bytes reach the disk (README 9). This program replaces the system calls that write. They
+// write and keep a log, from which the tests build every state that a kill or a power failure may leave.
 #include <fcntl.h>
 #include <sys/syscall.h>
 #include <unistd.h>
@@ -95,7 +94,7 @@ class WriteOrder : public OniFiles {
     for (int k = 0; k < kFrames; ++k) frames_.push_back(test_frame(k, kSize, true).depth_mm);
   }
 
-  // The calls of a recorder that is pushed kFrames; a mark follows each frame's last write.
+  // The log of a recording of kFrames, each synced; a mark follows the last write of each frame.
   Log record() {
     disk().log.clear();
     OniWriter writer(path("log.oni"), {.overwrite = true});
@@ -108,9 +107,8 @@ class WriteOrder : public OniFiles {
     return disk().log;
   }
 
-  // The first `count` depth frames are there, bit for bit, and after them at most the one that was being
-  // written. Only if that is `torn` may it differ: the format has no checksums, so what lacks some bytes may
-  // still decode.
+  // The file has the first `count` depth frames, bit for bit, and after them at most the one that was being
+  // written. If that is `torn`, it may differ: the format has no checksums, so even then it may decode.
   void expect_frames(const Bytes& bytes, std::int64_t count, bool torn, const std::string& where) {
     write_bytes(path("cut.oni"), bytes);
     Recording recording(path("cut.oni"));
@@ -130,14 +128,14 @@ class WriteOrder : public OniFiles {
   std::vector<cv::Mat1f> frames_;
 };
 
-TEST_F(WriteOrder, KilledAtAnyByteOfAnyWriteAllFramesBeforeAreThere) {
+TEST_F(WriteOrder, KilledAtAnyByteOfAnyWriteAllFramesBeforeItRemain) {
   const Log log = record();
   Bytes file;
   std::int64_t frames = 0;
   for (const Operation& operation : log) {
     if (operation.kind == Kind::frame) ++frames;
     for (std::size_t count = 1; count < operation.bytes.size(); ++count) {
-      // Every byte of what changes the file in place, and of the headers of records.
+      // Every byte of writes in place and of the headers of records; some of the rest.
       if (operation.position >= file.size() && count > 40 && count % 61 != 0) continue;
       Bytes cut = file;
       apply(operation, count, cut);
@@ -149,27 +147,27 @@ TEST_F(WriteOrder, KilledAtAnyByteOfAnyWriteAllFramesBeforeAreThere) {
     }
     apply(operation, operation.bytes.size(), file);
   }
-  EXPECT_EQ(file, read_bytes(path("log.oni"))) << "the log is all that was written";
+  EXPECT_EQ(file, read_bytes(path("log.oni"))) << "the log has all writes";
   EXPECT_EQ(frames, kFrames);
 }
 
-TEST_F(WriteOrder, APowerCutTakesAtMostTheFrameBeingWritten) {
+TEST_F(WriteOrder, APowerFailureTakesAtMostTheFrameBeingWritten) {
   const Log log = record();
   std::mt19937 random(7);
-  Bytes safe;  // what is on the disk for certain
+  Bytes safe;  // the file as it is on the disk for certain
   std::size_t first_unsafe = 0;
   std::int64_t safe_frames = 0, frames = 0;
   for (std::size_t k = 0; k < log.size(); ++k) {
     if (log[k].kind == Kind::frame) ++frames;
-    ASSERT_LE(frames - safe_frames, 1) << "a frame is written before the last one is on the disk";
-    // Of the calls since the last sync, any may have reached the disk in part, in any order, others not.
+    ASSERT_LE(frames - safe_frames, 1) << "a frame is written before the previous one is on the disk";
+    // Each call since the last sync may have reached the disk completely, in part or not at all.
     for (int round = 0; round < 12 && safe.size() >= kOniHeaderSize; ++round) {
       Bytes file = safe;
       for (std::size_t i = first_unsafe; i <= k; ++i) {
         const std::size_t whole = log[i].bytes.size();
         const bool cut = random() % 2 == 0 && whole > 0;
         if (random() % 4 == 0) {
-          // The size has grown and the bytes are not there.
+          // The size has changed and the bytes are missing.
           file.resize(std::max<std::size_t>(file.size(), whole == 0 ? 0 : log[i].position + whole));
           continue;
         }
@@ -185,7 +183,7 @@ TEST_F(WriteOrder, APowerCutTakesAtMostTheFrameBeingWritten) {
   EXPECT_EQ(safe, read_bytes(path("log.oni"))) << "the closed file is on the disk";
 }
 
-TEST_F(WriteOrder, CountsAndTablesAreNamedOnlyWhenTheyAreOnTheDisk) {
+TEST_F(WriteOrder, CountsAndTablePositionsAreWrittenOnlyWhenTheTablesAreOnTheDisk) {
   const Log log = record();
   std::uint64_t end = 0;  // of the file so far
   bool synced = true;
@@ -195,7 +193,7 @@ TEST_F(WriteOrder, CountsAndTablesAreNamedOnlyWhenTheyAreOnTheDisk) {
     if (operation.kind != Kind::write) continue;
     if (operation.position < end) {
       ++overwrites;
-      EXPECT_TRUE(synced || overwrites > 1) << "an earlier part is written over before the end is safe";
+      EXPECT_TRUE(synced || overwrites > 1) << "an earlier part is replaced before the end is on the disk";
     } else {
       synced = false;
     }
@@ -204,7 +202,7 @@ TEST_F(WriteOrder, CountsAndTablesAreNamedOnlyWhenTheyAreOnTheDisk) {
   EXPECT_EQ(overwrites, 3) << "two nodes and the header";
 }
 
-TEST_F(WriteOrder, ASlowDiskGetsTheFramesThatCameMeanwhileAtOnceAndNoneIsDropped) {
+TEST_F(WriteOrder, ASlowDiskSyncsWaitingFramesTogetherAndNoneIsDropped) {
   disk().log.clear();
   OniWriter writer(path("slow.oni"), {});
   OniRecorder recorder(writer, 30);
@@ -226,13 +224,13 @@ TEST_F(WriteOrder, ASlowDiskGetsTheFramesThatCameMeanwhileAtOnceAndNoneIsDropped
   recorder.finish();
   EXPECT_EQ(recorder.counts().frames, 12u);
   EXPECT_EQ(recorder.counts().dropped, 0u);
-  EXPECT_GT(recorder.counts().most_unsynced, 1u) << "it is told that more than one frame was at stake";
+  EXPECT_GT(recorder.counts().most_unsynced, 1u) << "the count of unsynced frames is reported";
   EXPECT_EQ(recorder.counts().unsynced, 0u);
   Recording recording(path("slow.oni"));
   EXPECT_TRUE(is_sound(check_recording(recording)));
 }
 
-TEST_F(WriteOrder, AFrameOfASourceThatWaitsIsOnTheDiskBeforeTheNextIsWritten) {
+TEST_F(WriteOrder, APushedFrameIsOnTheDiskBeforeTheNextIsWritten) {
   disk().log.clear();
   OniWriter writer(path("push.oni"), {.colour_codec = OniColourCodec::off});
   OniRecorder recorder(writer, 2);

@@ -1,5 +1,7 @@
 #include "oni/writer.hpp"
 
+#include <sys/resource.h>
+
 #include <gmock/gmock.h>
 
 #include "core/error.hpp"
@@ -25,7 +27,7 @@ void expect_sound(const std::filesystem::path& file) {
     ADD_FAILURE() << problem.position << ": " << problem.meaning;
 }
 
-TEST_F(OniWriterTest, DepthComesBackBitForBitInEveryCodec) {
+TEST_F(OniWriterTest, DepthIsKeptBitForBitInEveryCodec) {
   for (const OniDepthCodec codec : {OniDepthCodec::z16t, OniDepthCodec::z16p, OniDepthCodec::none}) {
     record_test_frames(path("d.oni"), 5, kSize, false, {.depth_codec = codec, .overwrite = true});
     expect_sound(path("d.oni"));
@@ -68,7 +70,7 @@ TEST_F(OniWriterTest, TenthsOfAMillimetreAreKept) {
   EXPECT_TRUE(equal(depth, frame.depth_mm));
 }
 
-TEST_F(OniWriterTest, RoundingAndRangeAreCountedAndKeptInTheFile) {
+TEST_F(OniWriterTest, RoundedAndOutOfRangeDepthIsCountedAndNotedInTheFile) {
   Frame frame = test_frame(0, kSize, false);
   frame.depth_mm.setTo(1000.0f);
   frame.depth_mm(0, 0) = 1000.26f;
@@ -89,7 +91,7 @@ TEST_F(OniWriterTest, RoundingAndRangeAreCountedAndKeptInTheFile) {
   EXPECT_EQ(depth(0, 1), 0.0f);
 }
 
-TEST_F(OniWriterTest, RawColourIsExactAndJpegIsNear) {
+TEST_F(OniWriterTest, RawColourIsExactAndJpegIsClose) {
   for (const OniColourCodec codec : {OniColourCodec::none, OniColourCodec::jpeg}) {
     record_test_frames(path("c.oni"), 2, kSize, true, {.colour_codec = codec, .overwrite = true});
     expect_sound(path("c.oni"));
@@ -101,7 +103,7 @@ TEST_F(OniWriterTest, RawColourIsExactAndJpegIsNear) {
   }
 }
 
-TEST_F(OniWriterTest, ColourCanBeLeftOutOrComeLater) {
+TEST_F(OniWriterTest, ColourCanBeOmittedOrStartLater) {
   record_test_frames(path("off.oni"), 2, kSize, true, {.colour_codec = OniColourCodec::off});
   EXPECT_EQ(Recording(path("off.oni")).index().nodes.size(), 1u);
   OniWriter writer(path("late.oni"), {.expect_colour = true});
@@ -113,7 +115,7 @@ TEST_F(OniWriterTest, ColourCanBeLeftOutOrComeLater) {
   EXPECT_EQ(main_colour(recording)->frames.size(), 1u);
 }
 
-TEST_F(OniWriterTest, TheCameraAndItsProvenanceComeBack) {
+TEST_F(OniWriterTest, TheCameraAndItsOriginAreKept) {
   const auto camera_of = [&](IntrinsicsOrigin origin) {
     Frame frame = test_frame(0, kSize, false);
     frame.intrinsics.origin = origin;
@@ -128,10 +130,10 @@ TEST_F(OniWriterTest, TheCameraAndItsProvenanceComeBack) {
             std::tuple(500.25, 501.5, 20.125, 14.625));
   EXPECT_EQ(camera.origin, IntrinsicsOrigin::file);
   EXPECT_EQ(camera_of(IntrinsicsOrigin::guess).origin, IntrinsicsOrigin::guess)
-      << "writing a guess does not make it true";
+      << "a written guess stays a guess";
 }
 
-TEST_F(OniWriterTest, DropsAreKeptInTheFile) {
+TEST_F(OniWriterTest, DropsAreNotedInTheFile) {
   OniWriter writer(path("x.oni"), {});
   writer.write(test_frame(0, kSize, false));
   writer.note_dropped(3);
@@ -145,7 +147,7 @@ TEST_F(OniWriterTest, DropsAreKeptInTheFile) {
   EXPECT_EQ(node.int_property(oni_property::kDropped, recording.index().file_size), 5u);
 }
 
-TEST_F(OniWriterTest, NothingIsOverwrittenUnasked) {
+TEST_F(OniWriterTest, AnExistingFileIsReplacedOnlyOnRequest) {
   write_bytes(path("precious"), std::vector<std::uint8_t>{1, 2, 3});
   EXPECT_THROW(OniWriter(path("precious"), {}), Error);
   EXPECT_EQ(read_bytes(path("precious")).size(), 3u);
@@ -153,7 +155,7 @@ TEST_F(OniWriterTest, NothingIsOverwrittenUnasked) {
   expect_sound(path("precious"));
 }
 
-TEST_F(OniWriterTest, AFileWithoutFramesIsNotLeftBehind) {
+TEST_F(OniWriterTest, AFileWithoutFramesIsRemoved) {
   OniWriter writer(path("none.oni"), {});
   EXPECT_THROW(writer.close(), Error);
   EXPECT_FALSE(std::filesystem::exists(path("none.oni")));
@@ -167,16 +169,42 @@ TEST_F(OniWriterTest, AnotherSizeIsRefused) {
   expect_sound(path("s.oni"));
 }
 
-TEST_F(OniWriterTest, AFullDiskIsToldAndTheFileClosed) {
-  try {
-    OniWriter writer("/dev/full", {});
-    FAIL();
-  } catch (const Error& error) {
-    EXPECT_THAT(error.what(), HasSubstr("exists"));
+// The process's limit on file size acts like a full disk.
+class SizeLimit {
+ public:
+  explicit SizeLimit(rlim_t bytes) {
+    ::getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit limit{bytes, before_.rlim_max};
+    ::setrlimit(RLIMIT_FSIZE, &limit);
   }
+  ~SizeLimit() { ::setrlimit(RLIMIT_FSIZE, &before_); }
+  SizeLimit(const SizeLimit&) = delete;
+  SizeLimit& operator=(const SizeLimit&) = delete;
+
+ private:
+  rlimit before_{};
+};
+
+TEST_F(OniWriterTest, OnAFullDiskTheFileIsClosedWithAllFramesBefore) {
+  const SizeLimit limit(20'000);
+  OniWriter writer(path("full.oni"), {.depth_codec = OniDepthCodec::none});
+  std::string error;
+  std::size_t written = 0;
+  for (int k = 0; k < 100 && error.empty(); ++k) try {
+      writer.write(test_frame(k, kSize, false));
+      ++written;
+    } catch (const Error& full) {
+      error = full.what();
+    }
+  EXPECT_THAT(error, HasSubstr("disk full"));
+  EXPECT_GT(written, 3u);
+  EXPECT_LE(std::filesystem::file_size(path("full.oni")), 20'000u);
+  expect_sound(path("full.oni"));
+  const Recording recording(path("full.oni"));
+  EXPECT_EQ(main_depth(recording)->frames.size(), written);
 }
 
-TEST_F(OniWriterTest, TheRecorderWritesWhatItTookAndCountsTheRest) {
+TEST_F(OniWriterTest, TheRecorderWritesAcceptedFramesAndCountsTheOthers) {
   OniWriter writer(path("q.oni"), {});
   std::size_t taken = 0;
   {
@@ -194,7 +222,7 @@ TEST_F(OniWriterTest, TheRecorderWritesWhatItTookAndCountsTheRest) {
   EXPECT_EQ(node.int_property(oni_property::kDropped, recording.index().file_size).value_or(0), 200 - taken);
   cv::Mat1f depth;
   ASSERT_TRUE(succeeded(recording.read_depth(node, taken, depth)));
-  EXPECT_TRUE(equal(depth, test_frame(200, kSize, true).depth_mm)) << "frames that wait are copies";
+  EXPECT_TRUE(equal(depth, test_frame(200, kSize, true).depth_mm)) << "queued frames are copies";
 }
 
 TEST_F(OniWriterTest, AnErrorOfTheWritingThreadReachesTheCaller) {

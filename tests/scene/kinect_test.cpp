@@ -97,14 +97,14 @@ double error_at(double distance_mm) {
 }
 
 TEST(Kinect, NoiseGrowsWithTheSquareOfTheDepth) {
-  // Half a step: 0.4 of noise and 1/sqrt(12) of quantisation, added in squares.
+  // About half a step: 0.4 of noise and 1/sqrt(12) of quantisation, added in squares.
   for (const double z : {1000.0, 2000.0, 4000.0, 6000.0}) {
     const double expected = std::sqrt(0.32 * 0.32 + 0.24 * 0.24 + 1.0 / 12) * z * z / 348000;
     EXPECT_NEAR(error_at(z) / expected, 1, 0.12) << z;
   }
 }
 
-TEST(Kinect, NoiseOfNeighboursIsAlikeAndOfDistantPixelsIsNot) {
+TEST(Kinect, NoiseOfNeighboursIsCorrelatedAndOfDistantPixelsIsNot) {
   const SceneRender view = view_of(world_of({wall(3000, 5)}));
   KinectProperties properties;
   properties.random_loss = 0;
@@ -124,7 +124,7 @@ TEST(Kinect, NoiseOfNeighboursIsAlikeAndOfDistantPixelsIsNot) {
   EXPECT_LT(std::abs(correlation(24)), 0.1);
 }
 
-TEST(Kinect, ReadingsAreWholeMillimetresAndMissingAtRandomAsOftenAsSaid) {
+TEST(Kinect, ReadingsAreIntegerMillimetresAndMissingAtRandomAsOftenAsSpecified) {
   const cv::Mat1f depth = sensed(view_of(world_of({wall(1500)})), 3);
   int missing = 0;
   for (const float z : depth) {
@@ -160,12 +160,12 @@ Scene box_before_wall() {
        wall(kFar_mm)});
 }
 
-TEST(Kinect, TheProjectorsShadowLiesToTheLeftAsWideAsItsFormulaSays) {
+TEST(Kinect, TheProjectorsShadowLiesToTheLeftWithTheWidthOfItsFormula) {
   KinectModel model;
   const SceneRender view = view_of(box_before_wall());
   model.set_view(view, kCamera);
   const cv::Mat1b shadow = model.shadow();
-  // Left edge of the box in the picture, and the width f * b * (1/near - 1/far) of the shadow.
+  // Left edge of the box in the image, and the width f * b * (1/near - 1/far) of the shadow.
   const int left = static_cast<int>(std::lround(kCamera.fx * -kHalf_mm / kNear_mm + kCamera.cx));
   const double width = kCamera.fx * 75 * (1 / kNear_mm - 1 / kFar_mm);
   for (int r = 100; r < 140; ++r) {
@@ -180,7 +180,7 @@ TEST(Kinect, TheProjectorsShadowLiesToTheLeftAsWideAsItsFormulaSays) {
     for (int c = left - static_cast<int>(width) + 3; c < left - 3; ++c) ASSERT_EQ(depth(r, c), 0);
 }
 
-// The slow way: a ray from each point to the projector.
+// The reference: a ray from each point to the projector.
 bool lit(const Scene& scene, const Vector3d& point) {
   const Vector3d projector(KinectProperties{}.baseline_mm, 0, 0);
   const Vector3d start = point + 5 * (projector - point).normalized();
@@ -211,7 +211,7 @@ TEST(Kinect, ShadowAgreesWithRaysToTheProjector) {
       differ += expected_dark != (model.shadow()(r, c) > 0);
     }
   EXPECT_GT(dark, 1000);
-  EXPECT_LT(differ, 0.15 * dark);  // a pixel at either side of a shadow may go either way
+  EXPECT_LT(differ, 0.15 * dark);  // the pixels at the borders of a shadow may be either
 }
 
 TEST(Kinect, TheSameKeyGivesTheSameBitsInAnyOrder) {

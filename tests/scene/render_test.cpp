@@ -29,7 +29,7 @@ Vector3d normal_at(const SceneRender& view, int r, int c) {
   return {n[0], n[1], n[2]};
 }
 
-// A world of one part, seen from `distance_mm` before the origin.
+// A world of one part, seen from `distance_mm` in front of the origin.
 Scene alone(const Part& part, double distance_mm) {
   Scene scene;
   scene.parts = {part};
@@ -57,7 +57,7 @@ TEST(Render, SphereHasItsAnalyticDepthAndNormalEverywhere) {
       ASSERT_NEAR(arm.norm(), kRadius, 1e-3);
       ASSERT_LT((arm / kRadius - normal_at(view, r, c)).norm(), 1e-5);
     }
-  // The outline is where the tangent cone meets the picture.
+  // The outline is the section of the tangent cone with the image plane.
   const double focal = camera_of(size).fx;
   const double outline = focal * kRadius / std::sqrt(kDistance * kDistance - kRadius * kRadius);
   EXPECT_NEAR(seen, std::numbers::pi * outline * outline, 4 * outline);
@@ -86,7 +86,7 @@ TEST(Render, TableTopIsAnExactPlane) {
   EXPECT_GT(seen, 20'000);
 }
 
-// The slow way: each pixel asks each part.
+// The reference: every pixel with every part.
 void compare_with_brute_force(const Scene& scene, const Pose& pose) {
   const cv::Size size(160, 120);
   const Intrinsics camera = camera_of(size);
@@ -115,7 +115,7 @@ void compare_with_brute_force(const Scene& scene, const Pose& pose) {
     }
 }
 
-TEST(Render, LeavingOutPixelsThatCannotSeeAPartChangesNothing) {
+TEST(Render, SkippingPixelsThatCannotSeeAPartChangesNothing) {
   for (const std::string_view name : scene_names()) {
     SCOPED_TRACE(std::string(name));
     const Scene scene = make_scene(name, {1, {}, {}});
@@ -172,7 +172,7 @@ TEST(Render, ReusesTheMemoryOfAnEarlierView) {
   EXPECT_EQ(cv::norm(first, view.depth_mm, cv::NORM_INF), 0);
 }
 
-TEST(Render, RefusesACameraThatCannotBe) {
+TEST(Render, RefusesAnImpossibleCamera) {
   const Scene scene = make_scene("cube", {});
   SceneRender view;
   EXPECT_THROW(render(scene, Intrinsics{}, {64, 48}, scene.camera_at(0), view), std::invalid_argument);

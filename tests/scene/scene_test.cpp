@@ -132,7 +132,7 @@ TEST(Scene, ObjectsOnTheTableDoNotIntersect) {
   }
 }
 
-TEST(Scene, TheTableHoldsTheObjectsAskedForAllInThePicture) {
+TEST(Scene, TheTableHoldsTheRequestedObjectsAllInTheImage) {
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     const Scene scene = make_scene("table", {seed, {}, {}});
     EXPECT_GE(scene.objects, 5);
@@ -151,7 +151,7 @@ TEST(Scene, TheTableHoldsTheObjectsAskedForAllInThePicture) {
     EXPECT_EQ(make_scene("table", {3, objects, {}}).objects, objects);
 }
 
-TEST(Scene, TheRoomShowsManyLabelledObjectsAndFlatPicturesAreNone) {
+TEST(Scene, TheRoomHasManyLabelledObjectsAndFlatPicturesAreNone) {
   const Scene scene = make_scene("room", {});
   const SceneRender view = still_view(scene);
   std::vector<int> pixels(static_cast<std::size_t>(scene.objects) + 1);
@@ -161,7 +161,7 @@ TEST(Scene, TheRoomShowsManyLabelledObjectsAndFlatPicturesAreNone) {
   EXPECT_EQ(cv::countNonZero(view.depth_mm == 0), 0);  // walls all around
 }
 
-TEST(Scene, TheMovingCameraStartsAtTheStillOneSwaysAndComesBack) {
+TEST(Scene, TheMovingCameraStartsAtTheStillOneSwingsAndReturns) {
   const Scene scene = make_scene("table", {});
   EXPECT_LT((scene.camera_at(0).position_mm - scene.eye_mm).norm(), 1e-9);
   EXPECT_LT((scene.camera_at(kOrbitPeriod_s).position_mm - scene.eye_mm).norm(), 1e-6);
@@ -171,7 +171,7 @@ TEST(Scene, TheMovingCameraStartsAtTheStillOneSwaysAndComesBack) {
     EXPECT_LT((pose.rotation.transpose() * pose.rotation - Matrix3d::Identity()).norm(), 1e-12);
     EXPECT_GT(pose.rotation.determinant(), 0);
     const Vector3d target = pose.rotation.transpose() * (scene.target_mm - pose.position_mm);
-    EXPECT_NEAR(target.x(), 0, 1e-9);  // in the middle of the picture
+    EXPECT_NEAR(target.x(), 0, 1e-9);  // in the middle of the image
     EXPECT_NEAR(target.y(), 0, 1e-9);
   }
 }
@@ -182,7 +182,7 @@ TEST(Scene, DistanceMovesTheCameraAlongItsLineOfSight) {
   EXPECT_LT((3 * (near.eye_mm - near.target_mm) - (far.eye_mm - far.target_mm)).norm(), 1e-9);
 }
 
-TEST(Scene, RefusesOptionsThatCannotBe) {
+TEST(Scene, RefusesImpossibleOptions) {
   EXPECT_THROW(make_scene("kitchen", {}), std::invalid_argument);
   EXPECT_THROW(make_scene("room", {0, 5, {}}), std::invalid_argument);
   EXPECT_THROW(make_scene("table", {0, 0, {}}), std::invalid_argument);

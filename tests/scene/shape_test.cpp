@@ -11,7 +11,7 @@
 namespace saccade::scene {
 namespace {
 
-// The slow way: walk along the ray until it is inside, then halve the last step.
+// The reference: steps along the ray until it is inside, then halves the last step.
 template <typename Body>
 std::optional<double> march(const Body& body, const Ray& ray, double end, double step) {
   for (double t = 0; t < end; t += step) {
@@ -45,7 +45,7 @@ void compare_with_marching(const Body& body) {
     const Hit hit = intersect(body, ray);
     const auto slow = march(body, ray, 700 / length, 0.25 / length);
     if (!slow) {
-      ++misses;  // a chord shorter than a step may hide from the walk
+      ++misses;  // the steps may pass over a chord shorter than one of them
       if (hit) {
         EXPECT_FALSE(inside(body, ray.origin + (hit.t + 0.25 / length) * ray.direction));
       }
@@ -53,7 +53,7 @@ void compare_with_marching(const Body& body) {
     }
     ++hits;
     ASSERT_TRUE(hit) << "ray " << i;
-    if (hit.t < *slow - 1e-6) {  // again a short chord before the one that was found
+    if (hit.t < *slow - 1e-6) {  // a short chord before the one that the steps found
       EXPECT_FALSE(inside(body, ray.origin + (hit.t + 0.25 / length) * ray.direction));
       continue;
     }
@@ -75,7 +75,7 @@ TEST(Shape, ConeAgreesWithMarching) { compare_with_marching(Frustum{40, 0, 70});
 TEST(Shape, FrustumThatWidensAgreesWithMarching) { compare_with_marching(Frustum{20, 45, 60}); }
 TEST(Shape, BowlAgreesWithMarching) { compare_with_marching(Bowl{50, 40}); }
 
-TEST(Shape, WhatIsBehindTheOriginIsNotHit) {
+TEST(Shape, SurfacesBehindTheOriginAreNotHit) {
   const Ray away{{0, 0, 200}, {0, 0, 1}};
   EXPECT_FALSE(intersect(Sphere{50}, away));
   EXPECT_FALSE(intersect(Box{{50, 50, 50}}, away));
@@ -106,12 +106,12 @@ TEST(Random, GaussianHasTheMomentsOfTheNormalDistribution) {
 }
 
 TEST(Random, NumbersDependOnTheCounterAlone) {
-  // SplitMix64's published first output for seed 0; a change would change every scene.
+  // The published first output of SplitMix64 for seed 0; a change would change every scene.
   EXPECT_EQ(mix(0), 0xe220a8397b1dcdafu);
   Random random(3);
   for (int i = 0; i < 1000; ++i) {
-    const int whole = random.whole(2, 4);
-    EXPECT_TRUE(whole >= 2 && whole <= 4);
+    const int integer = random.integer(2, 4);
+    EXPECT_TRUE(integer >= 2 && integer <= 4);
     const double real = random.between(-1, 5);
     EXPECT_TRUE(real >= -1 && real < 5);
   }

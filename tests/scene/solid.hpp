@@ -4,7 +4,7 @@
 
 namespace saccade::scene {
 
-/// The plain definition of each shape: is a point, in the shape's frame, within it?
+/// The definition of each shape: whether a point, in the frame of the shape, lies inside.
 inline bool inside(const Sphere& s, const Vector3d& p) { return p.norm() < s.radius; }
 inline bool inside(const Box& b, const Vector3d& p) { return (p.cwiseAbs().array() < b.half.array()).all(); }
 inline bool inside(const Frustum& f, const Vector3d& p) {

@@ -1,25 +1,23 @@
-#include "oni/codec_16z.hpp"
-
+// Decoding of 16zP and 16zT (README 4.2).
 #include <algorithm>
 #include <array>
-#include <cstring>
-#include <stdexcept>
 
 #include "oni/bytes.hpp"
+#include "oni/codec_16z.hpp"
 
 namespace saccade {
 namespace {
 
 constexpr std::size_t kSymbols = 65536;
 constexpr std::uint32_t kNoValue = 1u << 31;
-constexpr const char* kCut = "the coded data is cut";
+constexpr const char* kTruncated = "the coded data is truncated";
 constexpr const char* kTooMany = "more pixels than the image has";
 constexpr const char* kNoTable = "the table of values is damaged";
 constexpr const char* kNotInTable = "a pixel that is not in the table of values";
 
-// What a byte does: one pixel `first` symbols above the last, and then `pixels` - 1 of the symbol `last`
-// above the one before the byte. A run is the same with differences of 0. An escape has its own code after
-// that: its `last` is that of its first pixel, if it has one.
+// The effect of a byte: it emits one symbol, and then `pixels` - 1 times another. `first` and `last` are
+// their differences from the symbol before the byte; 0 for a run. For an escape, whose own code follows, this
+// is the effect of the high nibble in front of it, if there is one.
 struct Step {
   std::int8_t first = 0, last = 0;
   std::uint8_t pixels = 0;
@@ -46,15 +44,15 @@ constexpr std::array<Step, 256> make_steps() {
 }
 constexpr std::array<Step, 256> kSteps = make_steps();
 
-// The fast loop takes so many bytes or escapes without looking at the bounds in between.
+// The fast loop decodes this many codes (bytes, or escapes with their bytes) without bounds checks.
 constexpr std::size_t kBlock = 64;
-constexpr std::size_t kMostBytes = 3;    // of one of them
-constexpr std::size_t kMostPixels = 64;  // that one of them may write to
-// A symbol wanders at most so far in a block, except by an escape, which sets it anew.
+constexpr std::size_t kMostBytes = 3;    // of one code
+constexpr std::size_t kMostPixels = 64;  // that one code may write to
+// The largest change of a symbol within a block; an escape sets the symbol and wraps it.
 constexpr std::size_t kGuard = 16 * kBlock;
 
-// The place in the sequence of symbols, and the pixel that a symbol stands for. A symbol may leave 0..65535
-// by kGuard on either side before wrapped() brings it back; it stands for the wrapped one there.
+// The current symbol and its pixel, for 16zP and 16zT. A symbol may leave 0..65535 by kGuard on either side
+// before set(wrapped()) brings it back, and has the pixel of the wrapped symbol there.
 class PlainCursor {
  public:
   explicit PlainCursor(const std::uint32_t*) {}
@@ -71,7 +69,7 @@ class PlainCursor {
 
 class TableCursor {
  public:
-  // `table`: the value of symbol 0; kGuard values more in front of it and behind the last.
+  // `table`: points to the value of symbol 0; kGuard more values lie before it and after the last.
   explicit TableCursor(const std::uint32_t* table) : table_(table), at_(table) {}
   std::uint32_t value(std::ptrdiff_t step) const { return at_[step]; }
   void move(std::ptrdiff_t step) { at_ += step; }
@@ -83,8 +81,8 @@ class TableCursor {
   const std::uint32_t* at_;
 };
 
-// Decodes the symbol stream. A symbol that the table has no value for counts as one marked kNoValue, so that
-// any symbol may be looked up and the mark is noticed at the end.
+// Decodes the symbol stream. A symbol beyond the table has a value marked kNoValue, so any symbol may be
+// looked up, and the mark is found at the end.
 template <typename Cursor>
 class SymbolReader {
  public:
@@ -98,7 +96,7 @@ class SymbolReader {
         out_end_(pixels.data() + pixels.size()) {}
 
   Decoded16z run() {
-    if (in_end_ - in_ < 2) return result(kCut);
+    if (in_end_ - in_ < 2) return result(kTruncated);
     cursor_.set(load_le<std::uint16_t>(in_));
     in_ += 2;
     if (!emit(1)) return result(kTooMany);
@@ -120,8 +118,8 @@ class SymbolReader {
     return {static_cast<std::size_t>(out_ - begin_), fault};
   }
 
-  // There is room for `count` bytes or escapes. Few branches depend on what they are, since that cannot be
-  // predicted: more pixels than a byte stands for are written, and overwritten by the next.
+  // Decodes `count` codes; the caller has checked that their bytes and pixels fit. Few branches depend on the
+  // codes, since those cannot be predicted: it writes more pixels than a code has, which the next overwrites.
   void run_block(std::size_t count) {
     constexpr std::size_t kWritten = 16;
     const std::uint8_t* in = in_;
@@ -137,7 +135,7 @@ class SymbolReader {
       std::fill_n(out, kWritten, static_cast<std::uint16_t>(last));
       if (step.pixels > kWritten) {
         std::fill_n(out + kWritten, kWritten, static_cast<std::uint16_t>(last));
-        // Encoders end a run before that.
+        // Encoders write no longer run.
         if (step.pixels > 2 * kWritten)
           std::fill_n(out + 2 * kWritten, 2 * kWritten, static_cast<std::uint16_t>(last));
       }
@@ -154,7 +152,7 @@ class SymbolReader {
     seen_ = seen;
   }
 
-  // The same with every bound checked.
+  // Decodes one code with all bounds checked. Returns the fault, nullptr = none.
   const char* run_one() {
     const Step step = kSteps[*in_++];
     if (step.pixels > 0) {
@@ -165,12 +163,12 @@ class SymbolReader {
     }
     if (!step.escape) return nullptr;
     const auto left = static_cast<std::size_t>(in_end_ - in_);
-    if (left < 1 || (in_[0] < 0x80 && left < 2)) return kCut;
+    if (left < 1 || (in_[0] < 0x80 && left < 2)) return kTruncated;
     in_ += read_escape(in_, cursor_);
     return emit(1) ? nullptr : kTooMany;
   }
 
-  // A larger difference in one byte, or the symbol itself in two. Returns their number.
+  // A larger difference in one byte, or the symbol itself in two. Returns the number of bytes.
   static std::size_t read_escape(const std::uint8_t* in, Cursor& cursor) {
     const unsigned d = in[0];
     if (d >= 0x80) {
@@ -194,71 +192,7 @@ class SymbolReader {
   std::uint16_t* const begin_;
   std::uint16_t* out_;
   std::uint16_t* const out_end_;
-  std::uint32_t seen_ = 0;  // all values together
-};
-
-// Writes symbols, packing small differences into nibbles and runs.
-class SymbolWriter {
- public:
-  SymbolWriter(std::uint16_t first, std::uint8_t* out) : out_(out), current_(first) {
-    store_le(out_, first);
-    out_ += 2;
-  }
-
-  bool put(std::uint16_t symbol) {
-    const int d = static_cast<std::int16_t>(static_cast<std::uint16_t>(current_ - symbol));
-    current_ = symbol;
-    if (d >= -6 && d <= 6) {
-      put_nibble(static_cast<unsigned>(d + 6));
-      return true;
-    }
-    flush_run();
-    *out_++ = pending_ == kNone ? std::uint8_t{0xFF} : static_cast<std::uint8_t>(pending_ << 4 | 15);
-    pending_ = kNone;
-    if (d >= -63 && d <= 63) {
-      *out_++ = static_cast<std::uint8_t>(d + 192);
-      return true;
-    }
-    if (symbol >= 0x8000) return false;  // its high byte would read as a difference
-    *out_++ = static_cast<std::uint8_t>(symbol >> 8);
-    *out_++ = static_cast<std::uint8_t>(symbol & 255);
-    return true;
-  }
-
-  // The run is older than the pending nibble and goes first.
-  std::uint8_t* finish() {
-    flush_run();
-    if (pending_ != kNone) *out_++ = static_cast<std::uint8_t>(pending_ << 4 | 13);
-    return out_;
-  }
-
- private:
-  static constexpr unsigned kNone = 16;
-
-  void put_nibble(unsigned nibble) {
-    if (pending_ == kNone) {
-      pending_ = nibble;
-      return;
-    }
-    const unsigned c = pending_ << 4 | nibble;
-    pending_ = kNone;
-    if (c == 0x66) {
-      if (++run_ == 15) flush_run();
-      return;
-    }
-    flush_run();
-    *out_++ = static_cast<std::uint8_t>(c);
-  }
-
-  void flush_run() {
-    if (run_ > 0) *out_++ = static_cast<std::uint8_t>(0xE0 + run_);
-    run_ = 0;
-  }
-
-  std::uint8_t* out_;
-  std::uint16_t current_;
-  unsigned pending_ = kNone;  // the first of two small differences
-  unsigned run_ = 0;          // pairs of pixels equal to the one before
+  std::uint32_t seen_ = 0;  // bitwise or of all values
 };
 
 }  // namespace
@@ -266,59 +200,23 @@ class SymbolWriter {
 Decoded16z Decoder16z::decode(Codec16z codec, std::span<const std::uint8_t> payload,
                               std::span<std::uint16_t> pixels) {
   if (codec == Codec16z::plain) return SymbolReader<PlainCursor>(payload, nullptr, pixels).run();
-  if (payload.size() < 2) return {0, kCut};
+  if (payload.size() < 2) return {0, kTruncated};
   const std::size_t count = load_le<std::uint16_t>(payload.data());
   if (count == 0 || payload.size() < 2 + 2 * count + 2) return {0, kNoTable};
   load_table(payload.subspan(2, 2 * count));
   return SymbolReader<TableCursor>(payload.subspan(2 + 2 * count), table_.data() + kGuard, pixels).run();
 }
 
-// Symbols wrap, so the guards are copies of the other end.
+// Symbols wrap, so each guard is a copy of the other end.
 void Decoder16z::load_table(std::span<const std::uint8_t> values) {
   table_.resize(kGuard + kSymbols + kGuard, kNoValue);
   std::uint32_t* const table = table_.data() + kGuard;
   const std::size_t count = values.size() / 2;
   for (std::size_t i = 0; i < count; ++i) table[i] = load_le<std::uint16_t>(&values[2 * i]);
-  std::fill(table + count, table + std::max(count, filled_), kNoValue);  // of the frame before
+  std::fill(table + count, table + std::max(count, filled_), kNoValue);  // values of the previous frame
   filled_ = count;
   std::copy_n(table + kSymbols - kGuard, kGuard, table - kGuard);
   std::copy_n(table, kGuard, table + kSymbols);
-}
-
-void Encoder16z::build_table(std::span<const std::uint16_t> pixels) {
-  index_of_.assign(kSymbols, 0);
-  for (const std::uint16_t pixel : pixels) index_of_[pixel] = 1;
-  values_.clear();
-  for (std::size_t value = 0; value < kSymbols; ++value) {
-    if (index_of_[value] == 0) continue;
-    index_of_[value] = static_cast<std::uint16_t>(values_.size());
-    values_.push_back(static_cast<std::uint16_t>(value));
-  }
-}
-
-bool Encoder16z::encode(Codec16z codec, std::span<const std::uint16_t> pixels,
-                        std::vector<std::uint8_t>& payload) {
-  if (pixels.empty()) throw std::invalid_argument("Encoder16z: no pixels");
-  const std::size_t start = payload.size();
-  const bool table = codec == Codec16z::table;
-  if (table) build_table(pixels);
-  if (table && values_.size() >= kSymbols) return false;  // their number would not fit its field
-  payload.resize(start + max_size_16z(pixels.size()));
-  std::uint8_t* out = payload.data() + start;
-  if (table) {
-    store_le(out, static_cast<std::uint16_t>(values_.size()));
-    std::memcpy(out + 2, values_.data(), 2 * values_.size());
-    out += 2 + 2 * values_.size();
-  }
-  const auto symbol = [&](std::uint16_t pixel) { return table ? index_of_[pixel] : pixel; };
-  SymbolWriter writer(symbol(pixels[0]), out);
-  for (const std::uint16_t pixel : pixels.subspan(1))
-    if (!writer.put(symbol(pixel))) {
-      payload.resize(start);
-      return false;
-    }
-  payload.resize(static_cast<std::size_t>(writer.finish() - payload.data()));
-  return true;
 }
 
 }  // namespace saccade
