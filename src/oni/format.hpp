@@ -28,7 +28,7 @@ constexpr std::uint32_t kOniMaxSide = 8192;          ///< px
 constexpr std::uint64_t kOniMaxPixels = 16'000'000;  ///< of one image
 /// In an image of more pixels, a crop must be at least 1/kOniMaxCropRatio of it, so that a frame of a few
 /// bytes cannot demand a huge image.
-constexpr std::uint64_t kOniFreeCropPixels = 1600 * 1200;
+constexpr std::uint64_t kOniFreeCropPixels = std::uint64_t{1600} * 1200;
 constexpr std::uint64_t kOniMaxCropRatio = 64;
 constexpr std::size_t kOniMaxNodes = 64;
 constexpr std::size_t kOniMaxFrames = 5'000'000;        ///< in one file
