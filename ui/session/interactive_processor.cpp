@@ -8,7 +8,7 @@
 namespace saccade {
 namespace {
 
-constexpr int kNice = 5;  // computation steps back when the window has something to do
+constexpr int kNicer = 5;  // than the window: computation steps back when there is something to draw
 
 bool same_frame(const Frame& a, const Frame& b) {
   return a.index == b.index && a.timestamp_us == b.timestamp_us && a.size() == b.size();
@@ -71,7 +71,8 @@ void InteractiveProcessor::stop() {
 }
 
 void InteractiveProcessor::start(const Settings& settings) {
-  ::setpriority(PRIO_PROCESS, 0, kNice);  // of this thread, and so of those that it starts
+  // Of this thread, and so of those that it starts.
+  ::setpriority(PRIO_PROCESS, 0, ::getpriority(PRIO_PROCESS, 0) + kNicer);
   const std::lock_guard lock(mutex_);
   workers_ = std::make_unique<WorkerPool>(worker_count(settings));
   for (std::unique_ptr<ModelRunner>* runner : {&a_, &b_, &draft_a_, &draft_b_})
