@@ -66,16 +66,16 @@ EvalPlan make_plan(const EvalArguments& arguments, const Settings& settings, con
 
 void check_any_evaluated(const StoredResults& results) {
   for (const ImageResult& image : results.images)
-    if (image.left_out.empty()) return;
+    if (!image.left_out) return;
   throw unreadable(fmt::format("none of {} images could be evaluated; the first: {}", results.images.size(),
-                               results.images.empty() ? "-" : results.images.front().left_out),
+                               results.images.empty() ? "-" : results.images.front().left_out.value()),
                    results.plan.dataset, "each needs a label image of the size of its depth");
 }
 
 void warn_left_out(const ImageResult& image) {
-  if (!image.left_out.empty())
+  if (image.left_out)
     spdlog::warn("frame {}{} left out: {}", image.frame, image.name.empty() ? "" : " (" + image.name + ")",
-                 image.left_out);
+                 *image.left_out);
 }
 
 // Evaluates what is missing of a plan, as many images at once as there are workers, each on one thread.
@@ -142,7 +142,7 @@ class Evaluation {
 nlohmann::ordered_json summary_json(const StoredResults& results, const Statistics& statistics,
                                     const std::string& out) {
   auto json = report_json(results.plan, results.images, statistics);
-  for (const char* key : {"parameters", "interval", "differences"}) json.erase(key);
+  for (const char* key : {"parameters", "interval", "differences", "cross_validation"}) json.erase(key);
   json["out"] = out;
   return json;
 }

@@ -20,6 +20,7 @@ void copy_frame(const Frame& frame, Frame& copy) {
   copy_image(frame.depth_mm, copy.depth_mm);
   copy_image(frame.colour, copy.colour);
   copy_image(frame.truth.labels, copy.truth.labels);
+  copy_image(frame.truth.classes, copy.truth.classes);
   copy_image(frame.truth.normals, copy.truth.normals);
 }
 

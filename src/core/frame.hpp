@@ -12,6 +12,8 @@ namespace saccade {
 /// What a source knows of the scene and a sensor does not: for synthetic scenes and labelled data sets.
 struct GroundTruth {
   cv::Mat1w labels;   ///< H x W, 0 = no object, 1.. = instance; empty = unknown
+  cv::Mat1w classes;  ///< H x W, 0 = void (nobody labelled the pixel), 1.. = class of an object or of
+                      ///< structure such as walls; empty = unknown
   cv::Mat3f normals;  ///< H x W, exact unit normals in camera frame, towards the camera, 0 = no surface;
                       ///< empty = unknown
 };

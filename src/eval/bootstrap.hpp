@@ -15,10 +15,10 @@ struct Interval {
 /// The mean of each column.
 std::vector<double> column_means(const Table& table);
 
-/// The column means of `resamples` bootstrap samples: each draws as many rows as there are, with replacement.
-/// Which rows a sample holds depends on the seed and the number of rows alone, so that the differences
-/// between two tables' means are those of a paired bootstrap. One row per sample. The rows must be of one
-/// length, and there must be any: std::invalid_argument.
+/// The column means of `resamples` bootstrap samples, one row per sample; a sample draws as many rows as the
+/// table has, with replacement. The rows of a sample depend on the seed and the number of rows alone, so that
+/// the difference between the means of two tables is that of a paired bootstrap. Throws std::invalid_argument
+/// if there are no rows, or rows of different lengths.
 Table resampled_means(const Table& table, int resamples, std::uint64_t seed);
 
 /// The central 95 % of the values (percentile method, linear between order statistics).

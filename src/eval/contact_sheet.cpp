@@ -10,6 +10,7 @@
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "eval/hit_ratio.hpp"
+#include "eval/statistics.hpp"
 #include "output/overlay.hpp"
 
 namespace saccade {
@@ -17,24 +18,14 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::size_t kExamples = 4;  // best ones, and as many worst ones
-constexpr int kPoints = 10;           // of which the share of the bound is judged
+constexpr int kPoints = 10;           // drawn in a picture
 constexpr int kWidth = 480;           // of a picture, px
-
-double share_of_bound(const EvalPlan& plan, const ImageResult& image, std::size_t condition) {
-  std::vector<int> hits;
-  for (const EvalPoint& point : image.conditions[condition].points) hits.push_back(point.label);
-  const int points = std::min(plan.points, kPoints);
-  const auto ratio = hit_ratio(hits, points), bound = hit_ratio_bound(image.objects, points);
-  double sum = 0;
-  for (std::size_t n = 0; n < ratio.size(); ++n) sum += ratio[n] / bound[n];
-  return sum / points;
-}
 
 std::vector<Example> ranked(const EvalPlan& plan, const std::vector<ImageResult>& images,
                             std::size_t condition) {
   std::vector<Example> all;
   for (const ImageResult& image : images)
-    if (image.left_out.empty() && image.objects > 0)
+    if (!image.left_out && image.objects > 0)
       all.push_back({condition, &image, share_of_bound(plan, image, condition), false, ""});
   std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.share > b.share; });
   return all;
@@ -85,19 +76,17 @@ std::vector<Example> choose_examples(const EvalPlan& plan, const std::vector<Ima
   return chosen;
 }
 
-cv::Mat3b draw_example(const Frame& frame, const Look& look, const std::vector<EvalPoint>& points) {
+cv::Mat3b draw_example(const Frame& frame, const SaliencyMaps& maps, const std::vector<EvalPoint>& points) {
   Attention shown;
   for (const EvalPoint& point : points) {
     if (shown.fixations.size() == kPoints) break;
     shown.fixations.push_back({.row = point.row, .col = point.col, .position_mm = {}, .proto_object = {}});
   }
   Frame outlined = frame;
-  outlined.colour =
-      draw_overlay(frame, look.maps.master, {}, {.outlines = false, .marks = false, .path = false});
+  outlined.colour = draw_overlay(frame, maps.master, {}, {.outlines = false, .marks = false, .path = false});
   draw_objects(outlined.colour, frame.truth.labels,
                {points.begin(), points.begin() + static_cast<std::ptrdiff_t>(shown.fixations.size())});
-  cv::Mat3b picture =
-      draw_overlay(outlined, look.maps.master, shown, {.map = {.opacity = 0}, .outlines = false});
+  cv::Mat3b picture = draw_overlay(outlined, maps.master, shown, {.map = {.opacity = 0}, .outlines = false});
   if (picture.cols > kWidth)
     cv::resize(picture, picture, {kWidth, std::max(1, picture.rows * kWidth / picture.cols)}, 0, 0,
                cv::INTER_AREA);
@@ -118,7 +107,7 @@ void write_examples(const std::vector<Example>& examples, const EvalPlan& plan, 
     if (plan.settings.intrinsics) frame.intrinsics = *plan.settings.intrinsics;
     const auto& points = example.image->conditions[example.condition].points;
     std::vector<std::uint8_t> jpeg;
-    cv::imencode(".jpg", draw_example(frame, evaluator.look(frame, example.condition), points), jpeg,
+    cv::imencode(".jpg", draw_example(frame, evaluator.compute(frame, example.condition).maps, points), jpeg,
                  {cv::IMWRITE_JPEG_QUALITY, 88});
     const fs::path path = folder / example.file;
     std::error_code code;

@@ -16,7 +16,7 @@ namespace saccade {
 struct Example {
   std::size_t condition = 0;  ///< of EvalPlan::conditions()
   const ImageResult* image = nullptr;
-  double share = 0;  ///< mean of HR_n / bound_n over n = 1..10, as far as n goes
+  double share = 0;  ///< share_of_bound() of the image
   bool best = false;
   std::string file;  ///< of its picture, within the output folder
 };
@@ -26,12 +26,12 @@ struct Example {
 /// into `images`.
 std::vector<Example> choose_examples(const EvalPlan& plan, const std::vector<ImageResult>& images);
 
-/// The frame's colour image with the map, the numbered points and, outlined, the labelled objects: those that
-/// a point hit, and those that none hit. At most 480 pixels wide. BGR.
-cv::Mat3b draw_example(const Frame& frame, const Look& look, const std::vector<EvalPoint>& points);
+/// The frame's colour image with the map, the first ten points with their numbers, and the outlines of the
+/// labelled objects: white where one of these points hit, red where none did. At most 480 pixels wide. BGR.
+cv::Mat3b draw_example(const Frame& frame, const SaliencyMaps& maps, const std::vector<EvalPoint>& points);
 
-/// Computes the examples' maps again and writes their pictures as JPEG below `folder`; stops between two of
-/// them when `stop` says so. Throws Error.
+/// Computes the examples' maps again and writes their pictures as JPEG below `folder`. Ends before the next
+/// picture once `stop` returns true. Throws Error.
 void write_examples(const std::vector<Example>& examples, const EvalPlan& plan, FrameSource& source,
                     WorkerPool& pool, const std::filesystem::path& folder, const std::function<bool()>& stop);
 

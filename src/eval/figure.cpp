@@ -33,7 +33,7 @@ struct Panel {
   std::vector<Series> series;
 };
 
-// What goes side by side under one legend.
+// Panels side by side under one legend.
 struct Row {
   std::vector<Panel> panels;
 };
@@ -166,7 +166,7 @@ class Figure {
       for (const std::string& model : plan_.models)
         if (kernels_matter(model)) kernels.panels.push_back(kernels_panel(model, selector));
     }
-    // Of one model the panels of the kernels tell all.
+    // The panels of the kernels show all there is of a single model.
     if (plan_.models.size() == 1 && !kernels.panels.empty()) return wrapped({kernels});
     return wrapped({models, kernels});
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <set>
 
 namespace saccade {
@@ -42,7 +43,7 @@ std::vector<int> objects_found(std::span<const int> hits, int points) {
   std::set<int> found;
   std::vector<int> counts;
   for (std::size_t n = 0; n < static_cast<std::size_t>(points); ++n) {
-    if (n < hits.size() && hits[n] != 0) found.insert(hits[n]);
+    if (n < hits.size() && hits[n] > 0) found.insert(hits[n]);
     counts.push_back(static_cast<int>(found.size()));
   }
   return counts;
@@ -53,6 +54,30 @@ std::vector<double> hit_ratio(std::span<const int> hits, int points) {
   for (const int found : objects_found(hits, points))
     ratio.push_back(found / static_cast<double>(ratio.size() + 1));  // Eq. (16)
   return ratio;
+}
+
+std::vector<int> without_void(std::span<const int> hits) {
+  std::vector<int> kept;
+  std::copy_if(hits.begin(), hits.end(), std::back_inserter(kept), [](int label) { return label != kVoid; });
+  return kept;
+}
+
+std::vector<PointKinds> point_kinds(std::span<const int> hits, int points) {
+  std::set<int> seen;
+  PointKinds kinds;
+  std::vector<PointKinds> all;
+  for (std::size_t n = 0; n < static_cast<std::size_t>(points); ++n) {
+    if (n >= hits.size())
+      ++kinds.missing;
+    else if (hits[n] == kVoid)
+      ++kinds.unlabelled;
+    else if (hits[n] == 0)
+      ++kinds.structure;
+    else
+      ++(seen.insert(hits[n]).second ? kinds.new_object : kinds.same_object);
+    all.push_back(kinds);
+  }
+  return all;
 }
 
 std::vector<double> hit_ratio_bound(int objects, int points) {

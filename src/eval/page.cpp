@@ -34,24 +34,58 @@ std::string table_row(const std::string& name, const Curve& curve, const std::ve
   return row + "</tr>\n";
 }
 
-std::string table(const EvalPlan& plan, const Statistics& statistics) {
+std::string hit_ratio_table(const EvalPlan& plan, const Statistics& statistics) {
   const auto counts = shown_counts(plan.points);
   std::string html = "<table><tr><th>n</th>";
   for (const int n : counts) html += fmt::format("<th>{}</th>", n);
   html += "</tr>\n" + table_row("upper bound", statistics.bound, counts);
   const auto conditions = plan.conditions();
-  for (std::size_t i = 0; i < conditions.size(); ++i)
+  for (std::size_t i = 0; i < conditions.size(); ++i) {
     html += table_row(describe(conditions[i]), statistics.conditions[i], counts);
+    if (statistics.void_known > 0)
+      html += table_row(describe(conditions[i]) + ", void-neutral", statistics.void_neutral[i], counts);
+  }
+  for (const CrossValidation& c : statistics.cross_validations)
+    if (plan.kernels.size() * plan.selectors.size() > 1)
+      html += table_row(c.model + ", cross-validated", c.curve, counts);
   html += table_row("centre (expected)", statistics.centre, counts);
   return html + table_row("random (expected)", statistics.random, counts) + "</table>\n";
 }
 
+// One cell: the shares of the first n points in percent.
+std::string shares_cell(const PointShares& share, bool void_known) {
+  const auto percent = [](double value) { return fmt::format("{:.0f}", 100 * value); };
+  std::string cell = "<td>" + percent(share.new_object) + "<small>" + percent(share.same_object) + " / " +
+                     percent(share.structure);
+  if (void_known) cell += " / " + percent(share.unlabelled);
+  if (share.missing > 0) cell += ", missing " + percent(share.missing);
+  return cell + "</small></td>";
+}
+
+std::string points_on_table(const EvalPlan& plan, const Statistics& statistics) {
+  const auto counts = shown_counts(plan.points);
+  const bool void_known = statistics.void_known > 0;
+  std::string html = fmt::format(
+      "<h2>What the points lie on</h2>\n<p>Percent of the first n points on a new object; below, on an "
+      "object "
+      "that an earlier point hit / on no object, such as a wall or a table{}.</p>\n<table><tr><th>n</th>",
+      void_known ? " / on void, which nobody labelled" : "");
+  for (const int n : counts) html += fmt::format("<th>{}</th>", n);
+  html += "</tr>\n";
+  const auto conditions = plan.conditions();
+  for (std::size_t i = 0; i < conditions.size(); ++i) {
+    html += "<tr><td>" + escaped(describe(conditions[i])) + "</td>";
+    for (const int n : counts)
+      html += shares_cell(statistics.points_on[i][static_cast<std::size_t>(n - 1)], void_known);
+    html += "</tr>\n";
+  }
+  return html + "</table>\n";
+}
+
 std::string figure_of(const EvalPlan& plan, const Example& example) {
   const ImageResult& image = *example.image;
-  std::vector<int> hits;
-  for (const EvalPoint& point : image.conditions[example.condition].points) hits.push_back(point.label);
   const int points = std::min(plan.points, 10);
-  const int found = objects_found(hits, points).back();
+  const int found = objects_found(image.conditions[example.condition].hits(), points).back();
   return fmt::format(
       "<figure><img src=\"{}\" alt=\"\" loading=\"lazy\"><figcaption><b>frame {}{}</b>: {} of {} objects "
       "with "
@@ -78,10 +112,10 @@ std::string sheets(const EvalPlan& plan, const std::vector<Example>& examples) {
 std::string left_out(const std::vector<ImageResult>& images) {
   std::string items;
   for (const ImageResult& image : images)
-    if (!image.left_out.empty())
+    if (image.left_out)
       items +=
           fmt::format("<li>frame {}{}: {}</li>\n", image.frame,
-                      image.name.empty() ? "" : " (" + escaped(image.name) + ")", escaped(image.left_out));
+                      image.name.empty() ? "" : " (" + escaped(image.name) + ")", escaped(*image.left_out));
   return items.empty() ? "" : "<h2>Left out</h2>\n<ul>\n" + items + "</ul>\n";
 }
 
@@ -95,15 +129,20 @@ std::string page_html(const EvalPlan& plan, const std::vector<ImageResult>& imag
   html += fmt::format(
       "<p>{} images with {:.1f} labelled objects on average ({} to {}). HR(n) is the number of different "
       "objects that the first n points hit, divided by n; small figures are 95 % intervals over "
-      "images.</p>\n",
+      "images. A cross-validated model uses, on each half of the images, the kernel and selector that are "
+      "best on the other half.</p>\n",
       statistics.images, statistics.objects_mean, statistics.objects_least, statistics.objects_most);
-  html += svg + table(plan, statistics);
+  if (statistics.void_known > 0)
+    html += fmt::format(
+        "<p>Void is what nobody labelled, known in {} of the images; in the void-neutral Hit Ratio points on "
+        "void do not count and the next ones take their place.</p>\n",
+        statistics.void_known);
+  html += svg + hit_ratio_table(plan, statistics) + points_on_table(plan, statistics);
   if (!examples.empty())
     html +=
-        "<p>Below, for each model, the images where it comes nearest to the bound and where it stays "
-        "farthest "
-        "from it, under the kernel and selector that suit it best. Outlined are the labelled objects: white "
-        "where one of the first ten points hit, red where none did.</p>\n";
+        "<p>The images on which each model comes closest to the bound and stays farthest from it, under its "
+        "best kernel and selector. Outlines show the labelled objects: white where one of the first ten "
+        "points hit, red where none did.</p>\n";
   return html + sheets(plan, examples) + left_out(images) + "</body></html>\n";
 }
 

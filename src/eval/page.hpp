@@ -8,8 +8,8 @@
 
 namespace saccade {
 
-/// index.html: the figure, a table of the means with intervals, and the examples' pictures, which are files
-/// beside it. `svg` is put into the page.
+/// index.html: the figure (`svg`), a table of the means with intervals, what the points lie on, and the
+/// examples' pictures, which are files beside the page.
 std::string page_html(const EvalPlan& plan, const std::vector<ImageResult>& images,
                       const Statistics& statistics, const std::string& svg,
                       const std::vector<Example>& examples);

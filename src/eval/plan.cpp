@@ -14,7 +14,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr int kFormat = 1;  // of results.jsonl
+constexpr int kFormat = 2;  // of results.jsonl
 constexpr int kMostShards = 100'000;
 
 // Reads each word of the list with the setting's own parser; `take` gets the settings that hold it.
@@ -24,8 +24,8 @@ void parse_list(const EvalPlan& plan, const std::string& key, const std::string&
   for (std::size_t i = 0; i < words.size(); ++i) {
     if (std::find(words.begin(), words.begin() + static_cast<std::ptrdiff_t>(i), words[i]) !=
         words.begin() + static_cast<std::ptrdiff_t>(i))
-      throw usage_error(fmt::format("'{}' is named twice", words[i]), fmt::format("--{}s", key),
-                        "name it once");
+      throw usage_error(fmt::format("'{}' is given twice", words[i]), fmt::format("--{}s", key),
+                        "give it once");
     Settings settings;
     apply_setting(settings, key, words[i]);
     take(settings);

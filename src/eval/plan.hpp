@@ -12,7 +12,7 @@
 
 namespace saccade {
 
-/// One way to choose points that is compared with the others.
+/// One method of choosing points, to be compared with others.
 struct Condition {
   std::string model;
   int kernel = 15;
@@ -27,22 +27,22 @@ std::string to_string(Selector selector);
 
 inline constexpr int kMostPoints = 1000;
 
-/// The settings in whose place a plan has lists and numbers of its own: models, kernels, selectors, points.
+/// The settings that a plan replaces by fields of its own: models, kernels, selectors, points.
 inline constexpr std::array<std::string_view, 4> kPlanKeys = {"model", "kernel", "selector", "fixations"};
 
 /// Whether plan_json() keeps this setting: those that change results, apart from kPlanKeys.
 bool is_kept(const SettingSpec& spec);
 
-/// What is evaluated, on which part of a data set.
+/// What an evaluation compares, and on which part of a data set.
 struct EvalPlan {
-  std::string dataset;  ///< SOURCE of SPEC section 7
+  std::string dataset;  ///< as open_source() takes it
   std::vector<std::string> models;
   std::vector<int> kernels;
   std::vector<Selector> selectors;
   int points = 30;             ///< n of the Hit Ratio goes from 1 to this
-  Settings settings;           ///< all else; its model, kernel, selector and fixations are not looked at
-  int shard = 1, shards = 1;   ///< this part of so many; a part holds every shards-th frame
-  std::int64_t positions = 0;  ///< frames of the data set that are selected, of all shards
+  Settings settings;           ///< everything else; its model, kernel, selector and fixations have no effect
+  int shard = 1, shards = 1;   ///< this part of how many; a part holds every shards-th frame
+  std::int64_t positions = 0;  ///< number of frames that `settings` selects, in all shards
 
   /// Every model with every kernel and every selector, in this order of nesting.
   std::vector<Condition> conditions() const;
@@ -54,21 +54,21 @@ struct EvalPlan {
   std::int64_t frame_at(std::int64_t position) const { return settings.start + position * settings.every; }
 };
 
-/// Takes lists as they stand on the command line, "a,b"; empty = the one of `settings`. Throws Error (usage):
-/// an unknown name, a number out of range, something named twice.
+/// Reads lists as on the command line, "a,b"; empty = the value in `settings`. Throws Error (usage): an
+/// unknown name, a number out of range, a value given twice.
 void parse_lists(EvalPlan& plan, const std::string& models, const std::string& kernels,
                  const std::string& selectors);
 
 /// "i/n" with 1 <= i <= n <= 100000. Throws Error (usage).
 void parse_shard(EvalPlan& plan, const std::string& text);
 
-/// All that the results depend on; what must be the same to go on with an interrupted evaluation.
+/// Everything that the results depend on. An interrupted evaluation continues only with the same.
 nlohmann::ordered_json plan_json(const EvalPlan& plan);
 
-/// A JSON value as text. Names of files need not be UTF-8: what is not is replaced.
+/// A JSON value as text. Bytes that are not UTF-8, which names of files may hold, are replaced.
 std::string dump(const nlohmann::ordered_json& json, int indent = -1);
 
-/// The plan that plan_json() wrote. Throws Error (usage) or a JSON exception if it is none.
+/// The plan that plan_json() wrote. Throws Error (usage) or a JSON exception if `json` is not one.
 EvalPlan plan_from_json(const nlohmann::ordered_json& json);
 
 }  // namespace saccade

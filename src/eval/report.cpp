@@ -1,5 +1,6 @@
 #include "eval/report.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -13,7 +14,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr int kDigits = 6;  // a Hit Ratio has no more to tell
+constexpr int kDigits = 6;  // more than enough for a Hit Ratio
 
 double rounded(double value, int digits = kDigits) {
   const double scale = std::pow(10.0, digits);
@@ -42,6 +43,43 @@ Json condition_json(const Condition& condition) {
       {"model", condition.model}, {"kernel", condition.kernel}, {"selector", to_string(condition.selector)}};
 }
 
+Json points_on_json(const std::vector<PointShares>& shares, bool void_known) {
+  Json points = Json::array();
+  for (std::size_t i = 0; i < shares.size(); ++i) {
+    Json at_n = {{"n", i + 1},
+                 {"new_object", rounded(shares[i].new_object)},
+                 {"same_object", rounded(shares[i].same_object)},
+                 {"structure", rounded(shares[i].structure)}};
+    if (void_known) at_n["void"] = rounded(shares[i].unlabelled);
+    at_n["missing"] = rounded(shares[i].missing);
+    points.push_back(at_n);
+  }
+  return points;
+}
+
+Json halves_json(const std::array<std::vector<double>, 2>& halves, const std::vector<int>& counts) {
+  Json json = Json::object();
+  for (const std::size_t half : {0U, 1U}) {
+    Json means = Json::array();
+    for (const int n : counts)
+      if (!halves[half].empty())
+        means.push_back({{"n", n}, {"mean", rounded(halves[half][static_cast<std::size_t>(n - 1)])}});
+    json[half == 0 ? "even" : "odd"] = means;
+  }
+  return json;
+}
+
+Json cross_validation_json(const EvalPlan& plan, const Statistics& statistics) {
+  Json all = Json::array();
+  const auto conditions = plan.conditions();
+  for (const CrossValidation& c : statistics.cross_validations)
+    all.push_back({{"model", c.model},
+                   {"even_images_under", condition_json(conditions[c.used[0]])},
+                   {"odd_images_under", condition_json(conditions[c.used[1]])},
+                   {"hr", curve_json(c.curve)}});
+  return all;
+}
+
 Json conditions_json(const EvalPlan& plan, const Statistics& statistics) {
   Json all = Json::array();
   const auto conditions = plan.conditions();
@@ -49,6 +87,10 @@ Json conditions_json(const EvalPlan& plan, const Statistics& statistics) {
     Json json = condition_json(conditions[i]);
     json["points_per_image"] = rounded(statistics.points_mean[i]);
     json["hr"] = curve_json(statistics.conditions[i]);
+    const bool void_known = statistics.void_known > 0;
+    if (void_known) json["hr_void_neutral"] = curve_json(statistics.void_neutral[i]);
+    json["points_on"] = points_on_json(statistics.points_on[i], void_known);
+    json["halves"] = halves_json(statistics.halves[i], shown_counts(plan.points));
     json["times_ms"] = {{"map", rounded(statistics.map_ms[i], 3)},
                         {"select", rounded(statistics.select_ms[i], 3)}};
     all.push_back(json);
@@ -77,9 +119,26 @@ Json differences_json(const EvalPlan& plan, const Statistics& statistics) {
 Json left_out_json(const std::vector<ImageResult>& images) {
   Json all = Json::array();
   for (const ImageResult& image : images)
-    if (!image.left_out.empty())
-      all.push_back({{"frame", image.frame}, {"name", image.name}, {"reason", image.left_out}});
+    if (image.left_out)
+      all.push_back({{"frame", image.frame}, {"name", image.name}, {"reason", *image.left_out}});
   return all;
+}
+
+// The lines of one image and condition; `start` is the same in all of them.
+std::string csv_lines(const EvalPlan& plan, const ImageResult& image, const std::vector<int>& hits,
+                      const std::string& start) {
+  const auto ratio = hit_ratio(hits, plan.points), neutral = hit_ratio(without_void(hits), plan.points);
+  const auto bound = hit_ratio_bound(image.objects, plan.points);
+  const auto kinds = point_kinds(hits, plan.points);
+  std::string text;
+  for (std::size_t i = 0; i < kinds.size(); ++i) {
+    const std::string on_void = image.void_known ? std::to_string(kinds[i].unlabelled) : "";
+    const std::string hr_void_neutral = image.void_known ? fmt::format("{:.6f}", neutral[i]) : "";
+    text += fmt::format("{},{},{},{},{:.6f},{:.6f},{},{},{},{},{}\n", start, i + 1, image.objects,
+                        kinds[i].new_object, ratio[i], bound[i], kinds[i].same_object, kinds[i].structure,
+                        on_void, kinds[i].missing, hr_void_neutral);
+  }
+  return text;
 }
 
 std::string table_line(const std::string& name, const Curve& curve, const std::vector<int>& counts) {
@@ -88,26 +147,37 @@ std::string table_line(const std::string& name, const Curve& curve, const std::v
   return line + "\n";
 }
 
+// What the first ten points, or fewer, lie on.
+std::string points_on_text(const EvalPlan& plan, const Statistics& statistics) {
+  const int n = std::min(plan.points, 10);
+  const bool void_known = statistics.void_known > 0;
+  std::string text =
+      fmt::format("{:<40} {:>6} {:>6} {:>6}{} {:>6}\n", fmt::format("Share of {} points on", n), "new",
+                  "same", "none", void_known ? "   void" : "", "missing");
+  const auto conditions = plan.conditions();
+  for (std::size_t i = 0; i < conditions.size(); ++i) {
+    const PointShares& share = statistics.points_on[i][static_cast<std::size_t>(n - 1)];
+    text += fmt::format("{:<40} {:6.3f} {:6.3f} {:6.3f}{} {:6.3f}\n", describe(conditions[i]),
+                        share.new_object, share.same_object, share.structure,
+                        void_known ? fmt::format(" {:6.3f}", share.unlabelled) : "", share.missing);
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string csv_text(const EvalPlan& plan, const std::vector<ImageResult>& images) {
-  std::string text = "frame,name,model,kernel,selector,n,objects,found,hr,bound\n";
+  std::string text =
+      "frame,name,model,kernel,selector,n,objects,found,hr,bound,same_object,structure,void,missing,"
+      "hr_void_neutral\n";
   const auto conditions = plan.conditions();
-  for (const ImageResult& image : images) {
-    if (!image.left_out.empty()) continue;
-    const auto bound = hit_ratio_bound(image.objects, plan.points);
-    for (std::size_t i = 0; i < conditions.size(); ++i) {
-      std::vector<int> hits;
-      for (const EvalPoint& point : image.conditions[i].points) hits.push_back(point.label);
-      const auto found = objects_found(hits, plan.points);
+  for (const ImageResult& image : images)
+    for (std::size_t i = 0; i < image.conditions.size(); ++i) {
       const std::string start =
           fmt::format("{},{},{},{},{}", image.frame, quoted(image.name), conditions[i].model,
                       conditions[i].kernel, to_string(conditions[i].selector));
-      for (std::size_t n = 1; n <= found.size(); ++n)
-        text += fmt::format("{},{},{},{},{:.6f},{:.6f}\n", start, n, image.objects, found[n - 1],
-                            found[n - 1] / static_cast<double>(n), bound[n - 1]);
+      text += csv_lines(plan, image, image.conditions[i].hits(), start);
     }
-  }
   return text;
 }
 
@@ -117,6 +187,7 @@ Json report_json(const EvalPlan& plan, const std::vector<ImageResult>& images, c
   for (const char* key : {"format", "version", "shard", "shards"}) json["parameters"].erase(key);
   if (plan.shards > 1) json["shard"] = fmt::format("{}/{}", plan.shard, plan.shards);
   json["images"] = statistics.images;
+  json["images_with_classes"] = statistics.void_known;
   json["left_out"] = left_out_json(images);
   json["objects_per_image"] = {{"mean", rounded(statistics.objects_mean)},
                                {"least", statistics.objects_least},
@@ -130,6 +201,7 @@ Json report_json(const EvalPlan& plan, const std::vector<ImageResult>& images, c
   json["baselines"] = {{"random", curve_json(statistics.random)}, {"centre", curve_json(statistics.centre)}};
   json["conditions"] = conditions_json(plan, statistics);
   json["differences"] = differences_json(plan, statistics);
+  json["cross_validation"] = cross_validation_json(plan, statistics);
   return json;
 }
 
@@ -139,10 +211,16 @@ std::string report_text(const EvalPlan& plan, const Statistics& statistics) {
   for (const int n : counts) text += fmt::format(" {:>6}", n);
   text += "\n" + table_line("upper bound", statistics.bound, counts);
   const auto conditions = plan.conditions();
-  for (std::size_t i = 0; i < conditions.size(); ++i)
+  for (std::size_t i = 0; i < conditions.size(); ++i) {
     text += table_line(describe(conditions[i]), statistics.conditions[i], counts);
+    if (statistics.void_known > 0) text += table_line("  void-neutral", statistics.void_neutral[i], counts);
+  }
+  for (const CrossValidation& c : statistics.cross_validations)
+    if (plan.kernels.size() * plan.selectors.size() > 1)
+      text += table_line(c.model + ", cross-validated", c.curve, counts);
   text += table_line("centre (expected)", statistics.centre, counts);
-  return text + table_line("random (expected)", statistics.random, counts);
+  text += table_line("random (expected)", statistics.random, counts);
+  return text + points_on_text(plan, statistics);
 }
 
 }  // namespace saccade

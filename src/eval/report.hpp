@@ -9,15 +9,15 @@
 
 namespace saccade {
 
-/// hr.csv: a line for each evaluated image, condition and n, in this order; names are quoted where they must
-/// be (RFC 4180).
+/// hr.csv: a line for each evaluated image, condition and n, in this order. Names are quoted where RFC 4180
+/// requires it. `void` and `hr_void_neutral` are empty for an image without classes.
 std::string csv_text(const EvalPlan& plan, const std::vector<ImageResult>& images);
 
-/// report.json. Only its "times_ms" depend on the machine and how busy it was.
+/// report.json. Only its "times_ms" depend on the machine and its load.
 nlohmann::ordered_json report_json(const EvalPlan& plan, const std::vector<ImageResult>& images,
                                    const Statistics& statistics);
 
-/// A table of the means at shown_counts() for a terminal.
+/// The means at shown_counts() and what the points lie on, as tables for a terminal.
 std::string report_text(const EvalPlan& plan, const Statistics& statistics);
 
 }  // namespace saccade

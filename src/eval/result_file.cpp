@@ -1,6 +1,7 @@
 #include "eval/result_file.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <set>
 #include <string_view>
 
@@ -35,10 +36,11 @@ ImageResult image_from(const Json& json, const EvalPlan& plan) {
   image.frame = json.at("frame");
   image.name = json.at("name");
   if (json.contains("left_out")) {
-    image.left_out = json.at("left_out");
+    image.left_out = json.at("left_out").get<std::string>();
     return image;
   }
   image.objects = json.at("objects");
+  image.void_known = json.at("void_known");
   image.random = json.at("random").get<std::vector<double>>();
   image.centre = json.at("centre").get<std::vector<double>>();
   for (const auto& condition : json.at("conditions")) image.conditions.push_back(condition_from(condition));
@@ -50,15 +52,15 @@ ImageResult image_from(const Json& json, const EvalPlan& plan) {
 }
 
 struct Lines {
-  std::vector<std::string_view> whole;
-  std::uintmax_t whole_bytes = 0;  // up to the last line feed
+  std::vector<std::string_view> complete;
+  std::uintmax_t complete_bytes = 0;  // up to the last line feed
 };
 
 Lines split_lines(std::string_view text) {
   Lines lines;
-  for (std::size_t end; (end = text.find('\n', lines.whole_bytes)) != std::string_view::npos;) {
-    lines.whole.push_back(text.substr(lines.whole_bytes, end - lines.whole_bytes));
-    lines.whole_bytes = end + 1;
+  for (std::size_t end; (end = text.find('\n', lines.complete_bytes)) != std::string_view::npos;) {
+    lines.complete.push_back(text.substr(lines.complete_bytes, end - lines.complete_bytes));
+    lines.complete_bytes = end + 1;
   }
   return lines;
 }
@@ -67,8 +69,8 @@ StoredResults parse_results(const Lines& lines, const fs::path& path) {
   StoredResults results;
   std::size_t number = 1;
   try {
-    if (lines.whole.empty()) throw std::runtime_error("no line with the parameters");
-    for (const std::string_view line : lines.whole) {
+    if (lines.complete.empty()) throw std::runtime_error("no line with the parameters");
+    for (const std::string_view line : lines.complete) {
       const Json json = Json::parse(line);
       if (number == 1)
         results.plan = plan_from_json(json);
@@ -80,21 +82,21 @@ StoredResults parse_results(const Lines& lines, const fs::path& path) {
     }
   } catch (const std::exception& error) {
     throw unreadable(fmt::format("not the results of an evaluation: {}", error.what()),
-                     fmt::format("{}:{}", path.string(), number), "remove it to start anew");
+                     fmt::format("{}:{}", path.string(), number), "remove it to start again");
   }
   return results;
 }
 
-// "kernels is [15], not [10]" for the first difference of two plans; empty if they are the same.
-std::string difference(const Json& stored, const Json& wanted) {
+// "kernels is [15], not [10]" for the first difference of two plans; none if they are the same.
+std::optional<std::string> difference(const Json& stored, const Json& wanted) {
   for (const auto& [key, value] : wanted.items()) {
     const auto other = stored.find(key);
-    if (other == stored.end()) return fmt::format("{} is not told", key);
+    if (other == stored.end()) return fmt::format("{} is missing", key);
     if (*other == value) continue;
     if (value.is_object()) return difference(*other, value);
     return fmt::format("{} is {}, not {}", key, dump(*other), dump(value));
   }
-  return "";
+  return std::nullopt;
 }
 
 std::string read_text(const fs::path& path) {
@@ -112,10 +114,11 @@ std::string plan_line(const EvalPlan& plan) { return dump(plan_json(plan)); }
 
 std::string image_line(const ImageResult& image) {
   Json json = {{"frame", image.frame}, {"name", image.name}};
-  if (!image.left_out.empty()) {
-    json["left_out"] = image.left_out;
+  if (image.left_out) {
+    json["left_out"] = *image.left_out;
   } else {
     json["objects"] = image.objects;
+    json["void_known"] = image.void_known;
     json["random"] = image.random;
     json["centre"] = image.centre;
     json["conditions"] = Json::array();
@@ -138,15 +141,15 @@ StoredResults resume_results(const fs::path& folder, const EvalPlan& plan) {
   std::string text;
   if (fs::exists(path)) text = read_text(path);
   const Lines lines = split_lines(text);
-  if (lines.whole.empty()) {
+  if (lines.complete.empty()) {
     LineFile(path).append(plan_line(plan));
     return {plan, {}, false};
   }
   StoredResults results = parse_results(lines, path);
-  if (const std::string other = difference(plan_json(results.plan), plan_json(plan)); !other.empty())
-    throw usage_error("there are results of another evaluation: " + other, path.string(),
+  if (const auto other = difference(plan_json(results.plan), plan_json(plan)))
+    throw usage_error("there are results of another evaluation: " + *other, path.string(),
                       "choose another --out, or remove the file");
-  if (lines.whole_bytes < text.size()) fs::resize_file(path, lines.whole_bytes);
+  if (lines.complete_bytes < text.size()) fs::resize_file(path, lines.complete_bytes);
   return results;
 }
 
@@ -159,14 +162,14 @@ StoredResults merge_results(const std::vector<fs::path>& folders) {
     const int shard = part.plan.shard;
     if (!part.complete)
       throw usage_error(fmt::format("shard {}/{} is not complete", shard, part.plan.shards), folder.string(),
-                        "run its evaluation again to go on with it");
+                        "repeat its command: it continues from there");
     if (!seen.insert(shard).second)
       throw usage_error(fmt::format("shard {}/{} is given twice", shard, part.plan.shards), folder.string(),
                         "name each shard's folder once");
     part.plan.shard = 1;
     if (seen.size() == 1) merged.plan = part.plan;
-    if (const std::string other = difference(plan_json(merged.plan), plan_json(part.plan)); !other.empty())
-      throw usage_error("the shards are of different evaluations: " + other, folder.string(),
+    if (const auto other = difference(plan_json(merged.plan), plan_json(part.plan)))
+      throw usage_error("the shards are of different evaluations: " + *other, folder.string(),
                         "merge shards of one evaluation only");
     std::move(part.images.begin(), part.images.end(), std::back_inserter(merged.images));
   }

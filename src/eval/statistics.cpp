@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <optional>
 #include <stdexcept>
 
 #include "eval/hit_ratio.hpp"
@@ -13,8 +14,15 @@ template <typename Row>
 Table table_of(const std::vector<ImageResult>& images, Row row) {
   Table table;
   for (const ImageResult& image : images)
-    if (image.left_out.empty()) table.push_back(row(image));
+    if (!image.left_out) table.push_back(row(image));
   return table;
+}
+
+// share_of_bound() of each image in a row of one; 0 for an image without objects.
+Table shares_of_bound(const EvalPlan& plan, const std::vector<ImageResult>& images, std::size_t condition) {
+  return table_of(images, [&](const ImageResult& image) {
+    return std::vector<double>{image.objects > 0 ? share_of_bound(plan, image, condition) : 0};
+  });
 }
 
 std::vector<double> column(const Table& table, std::size_t n) {
@@ -54,15 +62,84 @@ Difference difference_of(std::size_t a, std::size_t b, const std::vector<Curve>&
 
 void count_objects(const std::vector<ImageResult>& images, Statistics& statistics) {
   for (const ImageResult& image : images) {
-    if (!image.left_out.empty()) continue;
+    if (image.left_out) continue;
     const bool first = statistics.images++ == 0;
     statistics.without_objects += image.objects == 0;
+    statistics.void_known += image.void_known;
     statistics.objects_mean += image.objects;
     statistics.objects_least = first ? image.objects : std::min(statistics.objects_least, image.objects);
     statistics.objects_most = std::max(statistics.objects_most, image.objects);
   }
   if (statistics.images == 0) throw std::invalid_argument("summarise: no image was evaluated");
   statistics.objects_mean /= static_cast<double>(statistics.images);
+}
+
+std::vector<PointShares> shares_of(const EvalPlan& plan, const std::vector<ImageResult>& images,
+                                   std::size_t condition) {
+  std::vector<PointShares> shares(static_cast<std::size_t>(plan.points));
+  double count = 0;
+  for (const ImageResult& image : images) {
+    if (image.left_out) continue;
+    ++count;
+    const auto kinds = point_kinds(image.conditions[condition].hits(), plan.points);
+    for (std::size_t i = 0; i < kinds.size(); ++i) {
+      const double n = static_cast<double>(i) + 1;
+      shares[i].new_object += kinds[i].new_object / n;
+      shares[i].same_object += kinds[i].same_object / n;
+      shares[i].structure += kinds[i].structure / n;
+      shares[i].unlabelled += kinds[i].unlabelled / n;
+      shares[i].missing += kinds[i].missing / n;
+    }
+  }
+  for (PointShares& share : shares)
+    for (double* value :
+         {&share.new_object, &share.same_object, &share.structure, &share.unlabelled, &share.missing})
+      *value /= count;
+  return shares;
+}
+
+// Rows 0, 2, 4, .. (half 0) or 1, 3, 5, .. (half 1).
+Table half_of(const Table& table, std::size_t half) {
+  Table rows;
+  for (std::size_t i = half; i < table.size(); i += 2) rows.push_back(table[i]);
+  return rows;
+}
+
+std::array<std::vector<double>, 2> means_of_halves(const Table& table) {
+  std::array<std::vector<double>, 2> means;
+  for (const std::size_t half : {0U, 1U})
+    if (const Table rows = half_of(table, half); !rows.empty()) means[half] = column_means(rows);
+  return means;
+}
+
+// The condition of `model` with the highest sum of shares of the bound on one half of the images; the first
+// of equals.
+std::size_t best_on_half(const EvalPlan& plan, const std::vector<ImageResult>& images,
+                         const std::string& model, std::size_t half) {
+  const auto conditions = plan.conditions();
+  std::optional<std::size_t> best;
+  double highest = 0;
+  for (std::size_t i = 0; i < conditions.size(); ++i) {
+    if (conditions[i].model != model) continue;
+    double sum = 0;
+    for (const auto& row : half_of(shares_of_bound(plan, images, i), half)) sum += row[0];
+    if (!best || sum > highest) {
+      best = i;
+      highest = sum;
+    }
+  }
+  return *best;
+}
+
+CrossValidation cross_validate(const EvalPlan& plan, const std::vector<ImageResult>& images,
+                               const std::string& model) {
+  CrossValidation result{
+      model, {best_on_half(plan, images, model, 1), best_on_half(plan, images, model, 0)}, {}};
+  Table rows = hit_ratios(plan, images, result.used[0]);
+  const Table odd = hit_ratios(plan, images, result.used[1]);
+  for (std::size_t i = 1; i < rows.size(); i += 2) rows[i] = odd[i];
+  result.curve = curve_of(rows);
+  return result;
 }
 
 double mean_of(const std::vector<ImageResult>& images, std::size_t condition,
@@ -84,9 +161,24 @@ std::vector<int> shown_counts(int points) {
 
 Table hit_ratios(const EvalPlan& plan, const std::vector<ImageResult>& images, std::size_t condition) {
   return table_of(images, [&](const ImageResult& image) {
-    std::vector<int> hits;
-    for (const EvalPoint& point : image.conditions[condition].points) hits.push_back(point.label);
-    return hit_ratio(hits, plan.points);
+    return hit_ratio(image.conditions[condition].hits(), plan.points);
+  });
+}
+
+double share_of_bound(const EvalPlan& plan, const ImageResult& image, std::size_t condition) {
+  constexpr int kPoints = 10;
+  const int points = std::min(plan.points, kPoints);
+  const auto ratio = hit_ratio(image.conditions[condition].hits(), points);
+  const auto bound = hit_ratio_bound(image.objects, points);
+  double sum = 0;
+  for (std::size_t i = 0; i < ratio.size(); ++i) sum += ratio[i] / bound[i];
+  return sum / points;
+}
+
+Table void_neutral_hit_ratios(const EvalPlan& plan, const std::vector<ImageResult>& images,
+                              std::size_t condition) {
+  return table_of(images, [&](const ImageResult& image) {
+    return hit_ratio(without_void(image.conditions[condition].hits()), plan.points);
   });
 }
 
@@ -104,8 +196,13 @@ Statistics summarise(const EvalPlan& plan, const std::vector<ImageResult>& image
     const Table table = hit_ratios(plan, images, i);
     resampled.push_back(resampled_means(table, kResamples, kBootstrapSeed));
     statistics.conditions.push_back(curve_of(table, resampled.back()));
-    statistics.points_mean.push_back(
-        mean_of(images, i, [](const auto& r) { return static_cast<double>(r.points.size()); }));
+    statistics.halves.push_back(means_of_halves(table));
+    statistics.points_on.push_back(shares_of(plan, images, i));
+    if (statistics.void_known > 0)
+      statistics.void_neutral.push_back(curve_of(void_neutral_hit_ratios(plan, images, i)));
+    const auto most = static_cast<std::size_t>(plan.points);
+    statistics.points_mean.push_back(mean_of(
+        images, i, [&](const auto& r) { return static_cast<double>(std::min(r.points.size(), most)); }));
     statistics.map_ms.push_back(mean_of(images, i, [](const auto& r) { return r.map_ms; }));
     statistics.select_ms.push_back(mean_of(images, i, [](const auto& r) { return r.select_ms; }));
   }
@@ -114,6 +211,8 @@ Statistics summarise(const EvalPlan& plan, const std::vector<ImageResult>& image
       if (differ_in_one(conditions[a], conditions[b]))
         statistics.differences.push_back(
             difference_of(a, b, statistics.conditions, resampled, shown_counts(plan.points)));
+  for (const std::string& model : plan.models)
+    statistics.cross_validations.push_back(cross_validate(plan, images, model));
   return statistics;
 }
 

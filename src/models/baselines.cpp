@@ -8,7 +8,7 @@
 namespace saccade {
 namespace {
 
-// The finaliser of SplitMix64: turns counters into well mixed bits.
+// The finaliser of SplitMix64: makes well mixed bits from counters.
 std::uint64_t mix(std::uint64_t x) {
   x += 0x9e3779b97f4a7c15U;
   x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9U;
@@ -16,8 +16,8 @@ std::uint64_t mix(std::uint64_t x) {
   return x ^ (x >> 31);
 }
 
-// Of position i on a line of n pixels.
-float fall_off(int i, int n) {
+// The Gaussian of the centre model at position i of a line of n pixels.
+float gaussian(int i, int n) {
   constexpr double kSigma = 0.25;
   const double x = (i - (n - 1) / 2.0) / (kSigma * n);
   return static_cast<float>(std::exp(-x * x / 2));
@@ -50,10 +50,10 @@ void CentreModel::compute(const Frame& frame, RequestedOutputs, SaliencyMaps& ma
   begin(frame, maps);
   const cv::Size size = frame.size();
   across_.resize(static_cast<std::size_t>(size.width));
-  for (int c = 0; c < size.width; ++c) across_[static_cast<std::size_t>(c)] = fall_off(c, size.width);
+  for (int c = 0; c < size.width; ++c) across_[static_cast<std::size_t>(c)] = gaussian(c, size.width);
   for_row_bands(pool_, size.height, [&](int first, int last) {
     for (int r = first; r < last; ++r) {
-      const float down = fall_off(r, size.height);
+      const float down = gaussian(r, size.height);
       for (int c = 0; c < size.width; ++c) maps.master(r, c) = across_[static_cast<std::size_t>(c)] * down;
     }
   });

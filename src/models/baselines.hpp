@@ -4,8 +4,8 @@
 
 namespace saccade {
 
-/// `random`: each pixel independent and uniform in 0..1, drawn from the frame's index alone: the same frame
-/// of any source always has the same map. Needs neither depth nor colour.
+/// `random`: each pixel independent and uniform in [0, 1), from a generator seeded with the frame's index:
+/// frame n of any source has the same map. Needs neither depth nor colour.
 class RandomModel : public SaliencyModel {
  public:
   explicit RandomModel(WorkerPool& pool) : pool_(pool) {}
@@ -15,8 +15,8 @@ class RandomModel : public SaliencyModel {
   WorkerPool& pool_;
 };
 
-/// `centre`: 1 in the middle of the image, falling as a Gaussian whose sigma is a quarter of the width across
-/// and a quarter of the height down. Needs neither depth nor colour.
+/// `centre`: a Gaussian, 1 in the middle of the image, with sigma a quarter of the width horizontally and a
+/// quarter of the height vertically. Needs neither depth nor colour.
 class CentreModel : public SaliencyModel {
  public:
   explicit CentreModel(WorkerPool& pool) : pool_(pool) {}

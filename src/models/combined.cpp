@@ -27,7 +27,7 @@ CombinedModel::CombinedModel(const ModelSettings& settings, WorkerPool& pool)
       itti_(std::make_unique<IttiModel>("combined", false, pool)),
       symmetry2d_(make_symmetry2d(pool)) {}
 
-// From the coarsest level down: sums_[l] holds the weighed levels from l on.
+// From the coarsest level down: sums_[l] holds the sum of the weighted levels from l on.
 void CombinedModel::weigh_levels(const cv::Mat1f& depth_mm) {
   constexpr float kNoiseLimitMm = 500;
   const int last_level = first_level_ + static_cast<int>(maps3d_.levels.size()) - 1;
@@ -60,7 +60,7 @@ void CombinedModel::reduce(const cv::Mat1f& map, cv::Mat1f& reduced) {
   divide_by_maximum(reduced);
 }
 
-// Of every 16th pixel.
+// Median of every 16th pixel.
 float CombinedModel::trust_in_3d(const cv::Mat1f& depth_mm) {
   constexpr float kNearMm = 1000;
   constexpr int kStep = 1 << kReducedLevel;

@@ -13,7 +13,7 @@ namespace saccade {
 /// The frame's colour image. Throws Error (unreadable) that names `model` if the frame has none.
 const cv::Mat3b& colour_of(const Frame& frame, const char* model);
 
-/// Shares rows 0..rows among the workers in bands that are the same for any number of them: job(begin, end).
+/// Divides rows 0..rows among the workers: job(begin, end). The bands are the same for any number of workers.
 template <typename Job>
 void for_row_bands(WorkerPool& pool, int rows, Job job) {
   constexpr int kRows = 16;
@@ -21,8 +21,8 @@ void for_row_bands(WorkerPool& pool, int rows, Job job) {
   pool.for_each((rows + kRows - 1) / kRows, std::ref(band));
 }
 
-/// Rows begin..end of `fine` get (with `add`: on top of what they hold) `coarse`, which is `levels` >= 0
-/// pyramid levels above, interpolated bilinearly at (r/2^levels, c/2^levels) and clamped at the border: a
+/// Interpolates `coarse`, which is `levels` >= 0 pyramid levels above `fine`, into rows begin..end of `fine`,
+/// or with `add` adds it to them. Bilinear at (r/2^levels, c/2^levels) and clamped at the border, since a
 /// level holds the even pixels of the one below.
 void upsample_rows(const cv::Mat1f& coarse, int levels, cv::Mat1f& fine, bool add, int begin, int end);
 

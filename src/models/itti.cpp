@@ -14,11 +14,11 @@ namespace saccade {
 namespace {
 
 // A Gabor pair of one orientation, exp(i (kx x + ky y)) times a Gaussian, as products of functions of x and
-// of y: the cosine of the sum is cos cos - sin sin, its sine sin cos + cos sin.
+// of y: cos(a + b) = cos a cos b - sin a sin b, sin(a + b) = sin a cos b + cos a sin b.
 struct Gabor {
   static constexpr int kReach = 7;  // 3 sigma
   cv::Mat1f cos_x, sin_x, cos_y, sin_y, gauss;
-  double constant = 0;  // answer of the even filter to an image of ones
+  double constant = 0;  // response of the even filter to an image of ones
 
   explicit Gabor(double angle) : cos_x(1, 2 * kReach + 1) {
     constexpr double kPeriod = 7, kSigma = kPeriod / 3;
@@ -37,7 +37,7 @@ struct Gabor {
     constant = cv::sum(cos_x)[0] * cv::sum(cos_y)[0] - cv::sum(sin_x)[0] * cv::sum(sin_y)[0];
   }
 
-  // The length of the pair's answer.
+  // The magnitude of the pair's response.
   void filter(const cv::Mat1f& image, std::array<cv::Mat1f, 2>& parts, cv::Mat1f& energy) const {
     auto& [sum, part] = parts;
     const auto apply = [&](const cv::Mat1f& x, const cv::Mat1f& y, cv::Mat1f& out) {
@@ -77,8 +77,8 @@ void IttiModel::resize(cv::Size size) {
     for (int l = 0; l < kLevels; ++l) channel.levels[static_cast<std::size_t>(l)].create(level_size(size, l));
 }
 
-// The article's equations for R, G, B and Y, of colours divided by the intensity where that is above a tenth
-// of its maximum.
+// The article's equations for R, G, B and Y. Colours are divided by the intensity where that is above a tenth
+// of its maximum, and are 0 elsewhere.
 void IttiModel::split_colours(const cv::Mat3b& colour) {
   cv::Mat1f& intensity = channels_[kIntensity].levels[0];
   for_row_bands(pool_, size_.height, [&](int begin, int end) {
@@ -165,7 +165,7 @@ void IttiModel::compute(const Frame& frame, RequestedOutputs, SaliencyMaps& maps
   split_colours(colour);
   const auto pyramid = [&](int i, int) { build_pyramid(channels_[static_cast<std::size_t>(i)].levels); };
   pool_.for_each(orientation_only_ ? 1 : static_cast<int>(kOrientation), std::ref(pyramid));
-  const auto compare = [&](int i, int) {  // the orientations, which take longest, first
+  const auto compare = [&](int i, int) {  // orientations first, since they take longest
     ChannelState& channel = channels_[static_cast<std::size_t>(kChannels - 1 - i)];
     if (i < kOrientations) find_orientation(kOrientations - 1 - i, channel);
     compare_levels(channel);

@@ -11,16 +11,7 @@ namespace saccade {
 /// compared between a fine level c = 2, 3, 4 of a pyramid and a coarse one c + 3, c + 4; each map of
 /// differences normalised by N(.) and added at level 4. itti_orientation is the orientation channel alone.
 ///
-/// Where the article is open or cannot be followed to the letter:
-///  - opponency is |RG(c) - RG(s)|; as printed, a centre would be compared with the negated surround;
-///  - orientations are the energy of a Gabor pair (period 7 px, sigma 7/3 px, no answer to a constant) on
-///  each
-///    level of the intensity pyramid;
-///  - differences are lowered towards the border of the image (attenuate_border());
-///  - small images use finer levels, so that things as small as they show are still seen: all level numbers
-///  go
-///    down by one where the shorter side is below 384 px, by two below 192 px. Sides never go below one
-///    pixel, so that any size can be looked at.
+/// README.md in this folder has the points in which it departs from the article. Needs colour.
 class IttiModel : public SaliencyModel {
  public:
   IttiModel(const char* name, bool orientation_only, WorkerPool& pool);
@@ -35,7 +26,7 @@ class IttiModel : public SaliencyModel {
   struct ChannelState {
     Pyramid levels;
     cv::Mat1f sum;                                    ///< of the normalised differences, at the map's level
-    std::array<cv::Mat1f, kMapLevel + 1> difference;  ///< |c - s|, at its level and on its way to the map's
+    std::array<cv::Mat1f, kMapLevel + 1> difference;  ///< |c - s|, at its level and at those up to the map's
     std::array<cv::Mat1f, 2> parts;                   ///< of the Gabor filters
   };
 
@@ -50,7 +41,7 @@ class IttiModel : public SaliencyModel {
   bool orientation_only_;
   WorkerPool& pool_;
   cv::Size size_;
-  int finer_ = 0;  ///< by how many levels all are finer, for small images
+  int finer_ = 0;  ///< subtracted from all level numbers, for small images
   std::array<ChannelState, kChannels> channels_;
   cv::Mat1f conspicuity_;
 };

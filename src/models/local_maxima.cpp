@@ -5,8 +5,7 @@
 namespace saccade {
 namespace {
 
-// No neighbour is higher, and none that comes before it in reading order is as high: a plateau counts about
-// once.
+// Whether no neighbour is higher and none before it in reading order as high: a plateau counts about once.
 bool is_peak(const cv::Mat1f& map, int row, int col) {
   const float value = map(row, col);
   for (int r = std::max(0, row - 1); r <= std::min(map.rows - 1, row + 1); ++r)

@@ -24,7 +24,7 @@ std::vector<MirrorPair> mirror_pairs() {
   std::vector<MirrorPair> pairs;
   for (int dy = 0; dy <= kOuter; ++dy)
     for (int dx = -kOuter; dx <= kOuter; ++dx) {
-      if (dy == 0 && dx <= 0) continue;  // the other end of a pair that is there already
+      if (dy == 0 && dx <= 0) continue;  // the other end of a pair already listed
       if (dy <= kInner && std::abs(dx) <= kInner) continue;
       const double radius2 = dx * dx + dy * dy, distance2 = 4 * radius2;
       const double weight =
@@ -67,7 +67,7 @@ void MirrorPairModel::load(const cv::Mat3b& colour) {
   for (std::size_t i = 1; i < levels_.size(); ++i) cv::pyrDown(levels_[i - 1].image, levels_[i].image);
 }
 
-// Shares the rows of all levels among the workers: job(level, begin, end).
+// Divides the rows of all levels among the workers: job(level, begin, end).
 template <typename Job>
 void MirrorPairModel::for_bands(Job job) {
   const auto bands_of = [](const Level& level) { return (level.score.rows + kRowsOfBand - 1) / kRowsOfBand; };
@@ -87,12 +87,12 @@ void MirrorPairModel::compute(const Frame& frame, RequestedOutputs, SaliencyMaps
   resize(colour.size());
   load(colour);
   for_bands([&](Level& level, int begin, int end) {
-    // A range of rows sees its neighbours in the image.
+    // OpenCV reads the rows around a range from the image that the range belongs to.
     const cv::Mat image = level.image.rowRange(begin, end);
     cv::Mat gx = level.gx.rowRange(begin, end), gy = level.gy.rowRange(begin, end);
     cv::Sobel(image, gx, CV_32F, 1, 0);
     cv::Sobel(image, gy, CV_32F, 0, 1);
-    // Divided afterwards: sums of whole numbers are exact, so that what is flat has the gradient 0.
+    // Division comes after the sums, which are exact in integers: flat parts have the gradient 0.
     gx *= 1.0 / (255 * kUnitsPerGrey);
     gy *= 1.0 / (255 * kUnitsPerGrey);
     for (int r = begin; r < end; ++r)

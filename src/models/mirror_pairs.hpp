@@ -8,18 +8,18 @@
 
 namespace saccade {
 
-/// Two pixels mirrored about a centre: centre + (dy, dx) and centre - (dy, dx).
+/// Two pixels mirrored about a centre: centre + (dx, dy) and centre - (dx, dy), px of a level.
 struct MirrorPair {
   int dx, dy;
-  float cos2a, sin2a;  ///< of twice alpha, the angle of the line that joins them
+  float cos2a, sin2a;  ///< of 2 alpha, where alpha is the angle of the line between the two
   float weight;        ///< exp(-d^2/(2 sigma^2))/(sigma sqrt(2 pi)), d = their distance in px, sigma = 16
 };
 
 /// Each pair once, within the outer kernel (half-width 5) and outside the inner one (half-width 2).
 std::vector<MirrorPair> mirror_pairs();
 
-/// What the gradients of one pyramid level are turned into: kPlanes numbers a pixel, 0 around the image, so
-/// that a pair of which a pixel is outside counts nothing.
+/// Numbers made from the gradients of one pyramid level: some planes of the level's size with a margin of 0,
+/// so that pairs with a pixel outside the image contribute nothing.
 class MomentPlanes {
  public:
   static constexpr int kMargin = 5;  ///< the half-width of the outer kernel
@@ -34,7 +34,7 @@ class MomentPlanes {
   std::vector<cv::Mat1f> planes_;
 };
 
-/// How a model makes moments of gradients, and a pair's contribution of moments.
+/// How a model computes moments from gradients, and a pair's contribution from moments.
 class PairMeasure {
  public:
   virtual ~PairMeasure() = default;
@@ -45,15 +45,15 @@ class PairMeasure {
   virtual void set_moments(const float* gx, const float* gy, int width, MomentPlanes& moments,
                            int r) const = 0;
 
-  /// Adds what the pairs about each pixel of row r contribute.
+  /// Adds the contributions of the pairs about each pixel of row r to score[0..width).
   virtual void add_pairs(const MomentPlanes& moments, int r, const std::vector<MirrorPair>& pairs,
                          float* score, int width) const = 0;
 };
 
-/// Symmetry of gradients at pixel pairs on pyramid levels 1..5 of the colour image, brought to full size and
-/// summed: the common part of symmetry2d and colour_symmetry2d. Levels are made by the binomial
-/// [1 4 6 4 1]/16, borders reflect, and are rounded to 1/256 of a grey level, so that a flat image has no
-/// gradient at all. A level's sides never go below one pixel, so that images of any size can be looked at.
+/// Symmetry of gradients at pixel pairs on pyramid levels 1..5 of the colour image, interpolated to full size
+/// and added: the common part of symmetry2d and colour_symmetry2d. Levels are smoothed by the binomial [1 4 6
+/// 4 1]/16 with reflected borders and rounded to 1/256 of a grey level, so that a flat image has no gradient
+/// at all. A level has at least one pixel a side, so images may have any size.
 class MirrorPairModel : public SaliencyModel {
  public:
   MirrorPairModel(const char* name, std::unique_ptr<PairMeasure> measure, WorkerPool& pool);

@@ -25,8 +25,8 @@ void Radial2dModel::find_gradient(const cv::Mat3b& colour) {
   });
 }
 
-// All of one radius, by one worker: votes of different rows fall on the same pixels, and the order of a sum
-// of floats is part of its bits.
+// One worker does all of one radius: votes of different rows fall on the same pixels, and the order of a sum
+// of floats changes its bits.
 void Radial2dModel::vote(int radius, Votes& votes) const {
   const cv::Size size = grey_.size();
   votes.orientation.create(size);

@@ -11,7 +11,7 @@ namespace saccade {
 /// points of interest", PAMI 2003) of the grey image with radii 1, 3, 5 and alpha = 2. Each pixel with a
 /// gradient votes for the pixels at radius n ahead of it (+) and behind it (-); with votes O and M,
 ///   F = M/k (min(|O|, k)/k)^2,   S = mean over n of F blurred by a Gaussian of sigma n/4,
-/// k = 8 for n = 1 and 9.9 beyond. The map is |S|: bright and dark things count alike.
+/// k = 8 for n = 1 and 9.9 for the others. The map is |S|: bright and dark spots count alike. Needs colour.
 class Radial2dModel : public SaliencyModel {
  public:
   explicit Radial2dModel(WorkerPool& pool) : pool_(pool) {}

@@ -7,7 +7,7 @@
 namespace saccade {
 namespace {
 
-// The inner loops run over the columns without a branch, so that the compiler makes vector code of them.
+// The inner loops run over the columns without branches, so that the compiler vectorises them.
 
 class GreyMeasure : public PairMeasure {
  public:
@@ -53,7 +53,7 @@ class GreyMeasure : public PairMeasure {
 //   cos^2(gi + gj) = (1 + cos 2gi cos 2gj - sin 2gi sin 2gj)/2, so that
 //   2 * contribution = A_i A_j + B_i B_j - C_i C_j with the sums over channels
 //   A = L cos^2 g, B = L cos^2 g cos 2g, C = L cos^2 g sin 2g.
-// These in turn are sums of L, L cos 2t, L sin 2t, L cos 4t and L sin 4t turned by alpha.
+// These are sums of L, L cos 2t, L sin 2t, L cos 4t and L sin 4t, rotated by alpha.
 class ColourMeasure : public PairMeasure {
  public:
   int channels() const override { return 3; }
@@ -96,9 +96,9 @@ class ColourMeasure : public PairMeasure {
                        const float* s2_j, const float* c4_j, const float* s4_j, float* score, int width) {
     const float cos2a = pair.cos2a, sin2a = pair.sin2a;
     const float cos4a = cos2a * cos2a - sin2a * sin2a, sin4a = 2 * sin2a * cos2a;
-    const float weight = pair.weight / 2 / 16;  // A, B and C are taken four times as large
+    const float weight = pair.weight / 2 / 16;  // a, b and s below use four times A, B and C
     for (int c = 0; c < width; ++c) {
-      // Of 2g and 4g: the moments turned by alpha.
+      // Of 2g and 4g: the moments rotated by alpha.
       const float cos2_i = c2_i[c] * cos2a + s2_i[c] * sin2a, sin2_i = s2_i[c] * cos2a - c2_i[c] * sin2a;
       const float cos4_i = c4_i[c] * cos4a + s4_i[c] * sin4a, sin4_i = s4_i[c] * cos4a - c4_i[c] * sin4a;
       const float cos2_j = c2_j[c] * cos2a + s2_j[c] * sin2a, sin2_j = s2_j[c] * cos2a - c2_j[c] * sin2a;

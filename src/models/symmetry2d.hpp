@@ -9,7 +9,7 @@ namespace saccade {
 /// `symmetry2d`: the isotropic symmetry of Reisfeld and Kootstra on the grey image. A pair of pixels i, j
 /// that are mirrored about the centre contributes
 ///   (1 - cos(ti + tj - 2 alpha)) (1 - cos(ti - tj)) log(1 + mi) log(1 + mj) weight
-/// with t, m the angle and length of the gradient. Needs colour images (grey ones will do).
+/// with t, m the angle and length of the gradient. Needs a colour image, which may be grey.
 std::unique_ptr<SaliencyModel> make_symmetry2d(WorkerPool& pool);
 
 /// `colour_symmetry2d`: Heidemann's symmetry of colour gradients. Every two channels k, l contribute

@@ -10,7 +10,7 @@ namespace {
 constexpr int kNormalReach = 2;    // of the 5 x 5 window of a normal
 constexpr int kBinomialReach = 2;  // of the smoothing between two levels
 
-// The pixels of one level between which the master map interpolates at the probed one, and their shares.
+// The pixels of one level that the master map interpolates between at the probed pixel, and their shares.
 struct Corners {
   int row0, col0, row1, col1;
   double down, right;  // share of the second row, of the second column
@@ -24,14 +24,14 @@ Corners corners_at(int level, cv::Size size, int row, int col) {
           y - row0, x - col0};
 }
 
-// Within the image, and beginning at an even place, so that halving keeps the even pixels of the image.
+// The part of `rect` within the image, from an even position on, so that halving keeps the even pixels.
 cv::Rect fitted(cv::Rect rect, cv::Size size) {
   rect &= cv::Rect({}, size);
   const int odd_x = rect.x % 2, odd_y = rect.y % 2;
   return {rect.x - odd_x, rect.y - odd_y, rect.width + odd_x, rect.height + odd_y};
 }
 
-// What of a level its own windows cover, with what the normals of their pixels need.
+// The part of a level that the windows at the probed pixel and the normals in them need.
 cv::Rect windows_at(int level, cv::Size image, const Symmetry3dParams& params, int row, int col) {
   const cv::Size size = level_size(image, level);
   const Corners c = corners_at(level, size, row, col);
@@ -41,25 +41,25 @@ cv::Rect windows_at(int level, cv::Size image, const Symmetry3dParams& params, i
       size);
 }
 
-// What of a level is smoothed and halved into `next` of the next one.
-cv::Rect support_of(const cv::Rect& next) {
+// The part of a level that halving needs for the part `next` of the next level.
+cv::Rect source_of(const cv::Rect& next) {
   return {2 * next.x - kBinomialReach, 2 * next.y - kBinomialReach, 2 * next.width - 1 + 2 * kBinomialReach,
           2 * next.height - 1 + 2 * kBinomialReach};
 }
 
-// The parts of the pyramid that hold all windows of the probed pixel: level 0..last_level.
+// The parts of levels 0..last_level that all of this needs.
 std::vector<cv::Rect> needed_parts(cv::Size image, const Symmetry3dParams& params, int row, int col) {
   std::vector<cv::Rect> parts;
   for (int l = params.last_level; l >= 0; --l) {
     cv::Rect part = windows_at(l, image, params, row, col);
-    if (!parts.empty()) part |= fitted(support_of(parts.back()), level_size(image, l));
+    if (!parts.empty()) part |= fitted(source_of(parts.back()), level_size(image, l));
     parts.push_back(part);
   }
   std::reverse(parts.begin(), parts.end());
   return parts;
 }
 
-// A cut-out of a level; reference's functions see it as an image of its own.
+// A cut-out of a level, as an image of its own for the functions of the reference.
 struct Part {
   cv::Rect rect;
   reference::Level level;
@@ -93,7 +93,7 @@ LevelProbe probe_level(const Part& part, int level, cv::Size size, const Symmetr
                          std::ldexp(result.pixel.y, level) - side_px / 2, side_px, side_px};
   result.footprint_mm = std::ldexp(side_px, -level) / part.level.camera.fx * result.depth_mm;
 
-  // Eq. (15), bilinear; corners without a share are not computed.
+  // Eq. (15) is bilinear; corners with share 0 need not be computed.
   const auto share = [&](double weight, int corner_row, int corner_col) {
     return weight > 0 ? weight * score_at(part, corner_row, corner_col, params) : 0;
   };
@@ -127,9 +127,9 @@ Probe probe(const cv::Mat1f& depth_mm, const Intrinsics& camera, const Symmetry3
   check_levels(depth_mm.size(), params);
   const auto levels = static_cast<std::size_t>(params.last_level - params.first_level + 1);
   if (!cv::Rect({}, depth_mm.size()).contains({col, row}))
-    throw std::invalid_argument("probe: a pixel outside of the image");
+    throw std::invalid_argument("probe: a pixel outside the image");
   if (!level_weights.empty() && level_weights.size() != levels)
-    throw std::invalid_argument("probe: one weight a level expected");
+    throw std::invalid_argument("probe: one weight for each level expected");
 
   Probe result;
   result.row = row;
@@ -140,7 +140,7 @@ Probe probe(const cv::Mat1f& depth_mm, const Intrinsics& camera, const Symmetry3
   for (int l = 0; l <= params.last_level; ++l) {
     const cv::Rect& whole = parts[static_cast<std::size_t>(l)];
     if (l > 0) {
-      // At a border of the cut-out that is not one of the image, halving is wrong; that is not used.
+      // Halving is wrong at borders of the cut-out within the image; the pixels there are not used.
       const cv::Rect& finer = parts[static_cast<std::size_t>(l) - 1];
       depth = reference::halve(depth)(whole - finer.tl() / 2).clone();
     }

@@ -13,34 +13,36 @@
 
 namespace saccade {
 
-/// Which by-products of the operator a caller wants besides the master map.
+/// Which by-products of the operator to compute besides the master map.
 struct RequestedOutputs {
   bool levels = false;   ///< the map of every level
   bool normals = false;  ///< the normals of level 0
 };
 
+/// What the operator computes from one frame of H x W pixels.
 struct SaliencyMaps {
-  cv::Mat1f master;  ///< H x W, the sum of the levels, Eq. (15)
-  std::vector<cv::Mat1f>
-      levels;         ///< if wanted: level first_level + i at its own size, 0..4, before normalisation
-  cv::Mat3f normals;  ///< if wanted: H x W, unit, towards the camera, (0,0,0) = none
+  cv::Mat1f master;               ///< H x W, the sum of the levels, Eq. (15); at least 0
+  std::vector<cv::Mat1f> levels;  ///< if requested: the map of level first_level + i at its own size, 0..4,
+                                  ///< before normalisation; 0 where there is no depth or no normal
+  cv::Mat3f normals;              ///< if requested: H x W, unit, towards the camera; (0,0,0) = none
 };
 
-/// The production form of the operator: float, SIMD chosen at run time, rows shared among a WorkerPool.
-/// Agrees with reference::symmetry3d() up to near-ties of the eigenvectors; the same bits for any number of
-/// workers. Memory is kept between frames: nothing is allocated after the first of one size. Thread safety:
-/// one compute() at a time per object.
+/// The production form of the operator that README.md in this folder describes: float, SIMD chosen at run
+/// time, rows shared among a WorkerPool. Agrees with reference::symmetry3d() except at near-ties, where
+/// rounding decides on which side of a plane a point lies; the same bits for any number of workers. Allocates
+/// nothing after the first frame of a size. Thread safety: one compute() at a time per object.
 class Symmetry3d {
  public:
-  /// `simd` as in ModelSettings::simd; throws Error (usage) if this machine cannot run it. `pool` must outlive
-  /// this.
+  /// `simd` as in ModelSettings::simd; throws Error (usage) if this machine cannot run it. `pool` must
+  /// outlive this object.
   Symmetry3d(const Symmetry3dParams& params, WorkerPool& pool, const std::string& simd = "auto");
   ~Symmetry3d();
   Symmetry3d(const Symmetry3d&) = delete;
   Symmetry3d& operator=(const Symmetry3d&) = delete;
 
-  /// depth_mm: H x W, 0 = no reading. Overwrites what `maps` holds, reusing its memory, and adds to `times`.
-  /// Throws as check_levels().
+  /// `depth_mm`: H x W; values that are not above 0 and at most 65535 mm count as no reading. Overwrites
+  /// `maps`, reusing its memory, and adds to `times`. Throws as check_levels(); std::invalid_argument for a
+  /// camera that is not valid(); WorkerPool::Interrupted.
   void compute(const cv::Mat1f& depth_mm, const Intrinsics& camera, RequestedOutputs outputs,
                SaliencyMaps& maps, StageTimes& times);
 

@@ -87,6 +87,7 @@ class FolderSource final : public FrameSource {
       read_depth(current, frame);
       read_colour(current = entry.colour, frame);
       read_labels(current = entry.label, frame);
+      read_classes(current = entry.classes, frame);
     } catch (const std::runtime_error& error) {  // an Error, or the reason of a decoder
       return {ReadStatus::rejected, fmt::format("{}: {}", current.filename().string(), error.what())};
     }
@@ -169,6 +170,15 @@ class FolderSource final : public FrameSource {
       return;
     }
     image.convertTo(frame.truth.labels, CV_16U);
+  }
+
+  void read_classes(const fs::path& path, Frame& frame) const {
+    frame.truth.classes.release();
+    if (path.empty()) return;
+    const cv::Mat image = decode_png(read_file(path));
+    check_size(image.size());
+    if (image.channels() != 1) throw std::runtime_error("classes must be grey or palette");
+    image.convertTo(frame.truth.classes, CV_16U);
   }
 
   FolderListing listing_;

@@ -16,6 +16,7 @@ struct FolderEntry {
   std::string name;                            ///< "0007", or the time stamp in a TUM folder
   std::int64_t timestamp_us = 0;               ///< from the first frame
   std::filesystem::path depth, colour, label;  ///< colour and label may be empty
+  std::filesystem::path classes{};             ///< may be empty
 };
 
 /// What a layout of folders finds: the frames in their order.
@@ -29,9 +30,9 @@ struct FolderListing {
 };
 
 /// Opens the frames of `listing`, found in the folder `input`, as a source of kind `kind`. Depth is a 16-bit
-/// grey PNG, or z of an organised PCD; label images are grey or palette. Every frame has the size of the
-/// first that is usable. The camera is that of meta.json (read_meta()), else the one that fits the points of
-/// the cloud, else a guess. A frame that cannot be used is rejected with the reason. Throws Error
+/// grey PNG, or z of an organised PCD; label and class images are grey or palette. Every frame has the size
+/// of the first that is usable. The camera is that of meta.json (read_meta()), else the one that fits the
+/// points of the cloud, else a guess. A frame that cannot be used is rejected with the reason. Throws Error
 /// (unreadable): no depth image is usable, meta.json is broken.
 std::unique_ptr<FrameSource> open_folder(const SourceInput& input, std::string_view kind,
                                          FolderListing listing);

@@ -62,6 +62,7 @@ FolderListing list_numbered(const fs::path& folder) {
     entry.depth = file.path();
     entry.colour = first_existing(folder, {stem + "_rgb.png", stem + "_rgb.jpg", stem + "_rgb.jpeg"});
     entry.label = first_existing(folder, {stem + "_label.png"});
+    entry.classes = first_existing(folder, {stem + "_class.png"});
     if (!found.emplace(*number, entry).second)
       throw unreadable("two depth images have the same number", file.path().string(), "rename or delete one");
   }
@@ -88,7 +89,7 @@ bool has_numbered_depth(const SourceInput& input) {
 extern const SourceKind kNumberedKind = {
     .name = "folder",
     .written = "FOLDER",
-    .help = "numbered depth images (PNG, 16 bits, mm), each with colour and labels if there are any",
+    .help = "NNNN_depth.png (16 bits, mm), with NNNN_rgb.png or .jpg and NNNN_label.png where there are any",
     .recognised_by = "NNNN_depth.png",
     .recognises = has_numbered_depth,
     .open =

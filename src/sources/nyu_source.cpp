@@ -142,6 +142,7 @@ class NyuSource : public FrameSource {
     const cv::Mat1w classes = read_numbers(*labels_, frame.index);
     frame.truth.labels =
         instances_ ? number_objects(classes, read_numbers(*instances_, frame.index)) : classes;
+    frame.truth.classes = classes;
   }
 
   std::string path_;

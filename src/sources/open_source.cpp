@@ -72,10 +72,10 @@ std::string source_forms() {
 }
 
 std::string source_help() {
-  std::string text = "Sources:";
+  std::string text = "Sources:\n";
   for (const SourceKind* kind : source_kinds())
     text +=
-        fmt::format("\n  {:<29} {}{}", kind->written, kind->help, kind->built ? "" : " (not in this build)");
+        fmt::format("  {:<29} {}{}\n", kind->written, kind->help, kind->built ? "" : " (not in this build)");
   return text;
 }
 

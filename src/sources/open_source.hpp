@@ -20,7 +20,7 @@ bool has_source_ending(const std::filesystem::path& file);
 /// How SOURCE can be written: "openni2[:URI], synthetic:NAME?KEY=VALUE&..., ...".
 std::string source_forms();
 
-/// The table of sources for --help: a line for each kind.
+/// The table of sources for --help: a title and a line for each kind.
 std::string source_help();
 
 }  // namespace saccade

@@ -189,6 +189,7 @@ ReadResult SyntheticSource::read(Frame& frame, std::chrono::milliseconds) {
   give(view_.colour, frame.colour);
   give(view_.labels, frame.truth.labels);
   give(view_.normals, frame.truth.normals);
+  frame.truth.classes.release();
   if (spec_.noise == SyntheticSpec::Noise::kinect)
     kinect_.sense(scene::mix(scene::mix(spec_.seed, 2), static_cast<std::uint64_t>(index)), frame.depth_mm);
   else if (spec_.missing > 0)

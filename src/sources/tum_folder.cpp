@@ -82,7 +82,7 @@ bool has_depth_list(const SourceInput& input) {
 extern const SourceKind kTumKind = {
     .name = "tum",
     .written = "FOLDER",
-    .help = "a sequence of the TUM RGB-D data set",
+    .help = "a sequence of TUM RGB-D: depth.txt, rgb.txt and the images that they list",
     .recognised_by = "depth.txt",
     .recognises = has_depth_list,
     .open = [](const SourceInput& input,

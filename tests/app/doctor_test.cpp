@@ -151,6 +151,26 @@ TEST_F(DoctorTest, ProblemsOfTheInstallationComeFirst) {
   EXPECT_THAT(problems[2].what, HasSubstr("no USB device"));
 }
 
+TEST_F(DoctorTest, PartsThatTheBuildLeavesOutAreNamed) {
+  Examination found;
+  found.openni2.left_out = {"SaccadeFreenect"};
+  found.openni2.modules = {{"PS1080", "", ""}, {"PSLink", "", ""}, {"SaccadeVirtual", "", ""}};
+  plug_in("1-1.2", "045e:02ae", "480", 0666);
+  found.usb = find_usb_sensors(folder_ / "sys");
+  auto problems = diagnose(found);
+  ASSERT_EQ(problems.size(), 1U);
+  EXPECT_THAT(problems[0].what, HasSubstr("this build has no driver module for it"));
+  EXPECT_THAT(problems[0].remedy, HasSubstr("-DSACCADE_FREENECT=ON"));
+
+  found.openni2 = {};
+  found.openni2.in_this_build = false;
+  found.openni2_error = "this build has no OpenNI2";
+  problems = diagnose(found);
+  ASSERT_EQ(problems.size(), 1U);
+  EXPECT_EQ(problems[0].what, "this build has no OpenNI2");
+  EXPECT_THAT(problems[0].remedy, HasSubstr("-DSACCADE_OPENNI2=ON"));
+}
+
 TEST_F(DoctorTest, DevicesTellsWhatIsConnectedOrThatNothingIs) {
   const ProgramResult none = run_saccade({"devices"});
   EXPECT_EQ(none.status, 0) << none.err;

@@ -1,6 +1,5 @@
-// What the machine could do at most: fused multiply-adds of single precision in registers, one thread. The
-// operator's inner loop is 23 such operations for each vector of neighbours (or fewer, where some are
-// shared).
+// The peak rate of the machine: fused multiply-adds of single precision in registers, one thread. The
+// operator's inner loop takes 23 such operations for each vector of neighbours.
 
 #include <benchmark/benchmark.h>
 
@@ -13,13 +12,12 @@ HWY_BEFORE_NAMESPACE();
 namespace saccade {
 namespace HWY_NAMESPACE {
 
-/// Returns a number that depends on all of the work; 12 multiply-adds of a whole vector a round, enough to
-/// hide their latency.
+/// Does 12 multiply-adds of a vector a round, enough to hide their latency; the result depends on all of them.
 float multiply_add(long rounds) {
   namespace hn = hwy::HWY_NAMESPACE;
   const hn::ScalableTag<float> d;
   const auto factor = hn::Set(d, 0.999f), term = hn::Set(d, 0.001f);
-  // Each begins elsewhere, so that none can be taken for another.
+  // Different initial values, so that the compiler cannot merge any two.
   auto s0 = hn::Set(d, 0.0f), s1 = hn::Set(d, 0.1f), s2 = hn::Set(d, 0.2f), s3 = hn::Set(d, 0.3f),
        s4 = hn::Set(d, 0.4f), s5 = hn::Set(d, 0.5f), s6 = hn::Set(d, 0.6f), s7 = hn::Set(d, 0.7f),
        s8 = hn::Set(d, 0.8f), s9 = hn::Set(d, 0.9f), s10 = hn::Set(d, 1.1f), s11 = hn::Set(d, 1.2f);

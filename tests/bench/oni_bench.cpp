@@ -1,8 +1,8 @@
-// How fast recordings are read, beside OpenNI2's own player on the same file in the same run.
+// Reads a recording with Saccade's reader and with OpenNI2's player in the same run and prints the times:
 //   oni_bench FILE.oni [FRAMES]
-// The depth frames of FILE (of any size; 640 x 480 is the usual one) are recorded in turn until there are
-// FRAMES of them (default 600), depth alone, in a temporary file, once in each coded form. Time is processor
-// time of the whole process, so that a player with threads of its own gains nothing by them.
+// First it records the depth frames of FILE repeatedly, until there are FRAMES of them (default 600), in a
+// temporary file, once for each codec. Times are processor times of the process, so that a player gains
+// nothing by threads of its own.
 #include <OpenNI.h>
 #include <unistd.h>
 
@@ -36,8 +36,8 @@ double wall_s() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-// Runs `read`, which returns the number of its frames, and prints the times per frame; gives the processor
-// time.
+// Runs `read`, which returns the number of frames, and prints the times per frame; returns the processor time
+// in ms.
 double measure(const char* name, const std::function<int()>& read) {
   const double cpu = processor_s(), wall = wall_s();
   const int frames = read();
@@ -117,7 +117,7 @@ void compare(const fs::path& file, OniDepthCodec codec, const char* name, int fr
   const fs::path long_file = fs::temp_directory_path() / fmt::format("saccade_bench_{}.oni", ::getpid());
   make_recording(file, long_file, codec, frames);
   fmt::print("{} frames of depth in {}, {} bytes\n", frames, name, fs::file_size(long_file));
-  play_stored(long_file);  // once, so that the file is in memory for everyone
+  play_stored(long_file);  // puts the file into the page cache
   const double ours = measure("Saccade, depth as stored", [&] { return play_stored(long_file); });
   measure("Saccade, depth in mm (OniSource)", [&] { return play_source(long_file); });
   OniSource source(long_file);
@@ -148,6 +148,6 @@ int main(int argc, char** argv) {
     fmt::print(stderr, "oni_bench: {}\n", error.what());
     return 1;
   }
-  // OpenNI2's shutdown is known to crash; everything is printed.
+  // OpenNI2's shutdown can crash.
   std::_Exit(0);
 }

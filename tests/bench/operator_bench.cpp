@@ -1,5 +1,5 @@
-// The operator: whole and by stage, for instruction sets, threads, kernels and image sizes, against the naive
-// reference in the same run. Counters: ms of each stage a frame, and the share of valid pixels.
+// The operator and its stages for several instruction sets, threads, k and image sizes, and the reference in
+// the same run. Counters: milliseconds of each stage per frame, and the share of valid pixels.
 
 #include <chrono>
 #include <filesystem>
@@ -16,7 +16,7 @@
 namespace saccade {
 namespace {
 
-/// As `saccade bench` has it: a table with a Kinect's noise, a fifth of it missing.
+/// The frame of `saccade bench`: a table with a Kinect's noise, a fifth of it missing.
 cv::Mat1f table(cv::Size size) {
   SyntheticSource source("synthetic:table?seed=1&noise=kinect&missing=0.2&frames=1&size=" +
                          std::to_string(size.width) + "x" + std::to_string(size.height));
@@ -48,7 +48,7 @@ void run(benchmark::State& state, const cv::Mat1f& depth, const std::string& sim
   state.counters["valid"] = static_cast<double>(cv::countNonZero(depth)) / static_cast<double>(depth.total());
 }
 
-/// The naive form, one thread; of the same image, so that it gives the ratio.
+/// The reference, one thread.
 void run_reference(benchmark::State& state, const cv::Mat1f& depth) {
   for (auto _ : state)
     benchmark::DoNotOptimize(reference::symmetry3d(depth, Intrinsics::guess_for(depth.size()), {}).master);

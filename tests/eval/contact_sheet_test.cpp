@@ -11,7 +11,7 @@ namespace {
 std::vector<ImageResult> images_of(const std::vector<int>& ranks) {
   std::vector<ImageResult> images;
   for (const int rank : ranks) {
-    ImageResult image{static_cast<std::int64_t>(images.size()), "", "", 1, {}, {}, {}};
+    ImageResult image{.frame = static_cast<std::int64_t>(images.size()), .left_out = {}, .objects = 1};
     image.conditions.resize(4);
     for (int n = 1; n <= 3; ++n) image.conditions[2].points.push_back({0, 0, n == rank ? 1 : 0});
     images.push_back(image);
@@ -51,9 +51,9 @@ TEST(ContactSheet, PictureShowsObjectsHitAndMissed) {
   frame.truth.labels = cv::Mat1w(240, 640, std::uint16_t{0});
   frame.truth.labels(cv::Rect(100, 60, 120, 120)).setTo(1);
   frame.truth.labels(cv::Rect(400, 60, 120, 120)).setTo(2);
-  Look look;
-  look.maps.master = cv::Mat1f(240, 640, 0.0F);
-  const cv::Mat3b picture = draw_example(frame, look, {{120, 160, 1}});
+  SaliencyMaps maps;
+  maps.master = cv::Mat1f(240, 640, 0.0F);
+  const cv::Mat3b picture = draw_example(frame, maps, {{120, 160, 1}});
   ASSERT_EQ(picture.size(), cv::Size(480, 180));
   const auto count = [&](cv::Rect part, auto is) {
     int pixels = 0;

@@ -39,7 +39,7 @@ TEST(Figure, KernelsWithoutEffectHaveNoPanels) {
   const EvalPlan plan = sample_plan();
   auto images = sample_images();
   for (ImageResult& image : images)
-    if (image.left_out.empty())
+    if (!image.left_out)
       for (auto& condition : image.conditions) condition = image.conditions[0];
   const std::string svg = to_svg(draw_hit_ratios(plan, summarise(plan, images)));
   EXPECT_THAT(svg, HasSubstr(">k = 10, proto<"));

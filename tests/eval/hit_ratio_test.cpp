@@ -1,5 +1,6 @@
 #include "eval/hit_ratio.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -24,6 +25,60 @@ TEST(HitRatioOfImage, MissingPointsAreMisses) {
   EXPECT_THAT(hit_ratio(std::vector<int>{2}, 4), ElementsAre(1, 0.5, 1 / 3.0, 0.25));
   EXPECT_THAT(hit_ratio({}, 2), ElementsAre(0, 0));
   EXPECT_THAT(objects_found(std::vector<int>{1, 2, 3}, 2), ElementsAre(1, 2)) << "more than were asked for";
+}
+
+TEST(HitRatioOfImage, PointsOnVoidMakeRoomForTheNext) {
+  const std::vector<int> hits = {kVoid, 7, kVoid, 0, 7, 3};
+  EXPECT_THAT(hit_ratio(hits, 4), ElementsAre(0, 0.5, 1 / 3.0, 0.25)) << "a miss without the class image";
+  EXPECT_THAT(without_void(hits), ElementsAre(7, 0, 7, 3));
+  EXPECT_THAT(hit_ratio(without_void(hits), 4), ElementsAre(1, 0.5, 1 / 3.0, 0.5));
+  EXPECT_THAT(hit_ratio(without_void(std::vector<int>{kVoid, kVoid}), 2), ElementsAre(0, 0));
+}
+
+TEST(HitRatioOfImage, KindsOfPoints) {
+  const std::vector<int> hits = {kVoid, 7, 0, 7, 3};
+  EXPECT_THAT(point_kinds(hits, 6),
+              ElementsAre(PointKinds{0, 0, 0, 1, 0}, PointKinds{1, 0, 0, 1, 0}, PointKinds{1, 0, 1, 1, 0},
+                          PointKinds{1, 1, 1, 1, 0}, PointKinds{2, 1, 1, 1, 0}, PointKinds{2, 1, 1, 1, 1}));
+}
+
+// The definitions, counted from the beginning for each n.
+TEST(HitRatioOfImage, AgreesWithASlowReference) {
+  for (std::uint64_t sample = 0; sample < 200; ++sample) {
+    std::vector<int> hits;
+    for (std::uint64_t i = 0; i < sample % 15; ++i)
+      hits.push_back(static_cast<int>(7 * scene::uniform(scene::mix(sample, i))) - 1);  // kVoid, 0, 1..5
+    for (int n = 1; n <= 12; ++n) {
+      const auto at = static_cast<std::size_t>(n - 1);
+      const std::vector<int> first(hits.begin(),
+                                   hits.begin() + std::min<std::ptrdiff_t>(n, std::ssize(hits)));
+      const auto count = [&](auto is) {
+        return static_cast<int>(std::count_if(first.begin(), first.end(), is));
+      };
+      std::set<int> objects;
+      for (const int label : first)
+        if (label != 0 && label != kVoid) objects.insert(label);
+      const int found = static_cast<int>(objects.size());
+      EXPECT_DOUBLE_EQ(hit_ratio(hits, 12)[at], found / static_cast<double>(n));
+      const PointKinds kinds = point_kinds(hits, 12)[at];
+      EXPECT_EQ(kinds.new_object, found);
+      EXPECT_EQ(kinds.same_object, count([](int label) { return label > 0; }) - found);
+      EXPECT_EQ(kinds.structure, count([](int label) { return label == 0; }));
+      EXPECT_EQ(kinds.unlabelled, count([](int label) { return label == kVoid; }));
+      EXPECT_EQ(kinds.missing, n - static_cast<int>(first.size()));
+
+      // Void-neutral: the first n points that are not on void, however many others lie between them.
+      std::set<int> neutral;
+      int taken = 0;
+      for (std::size_t i = 0; i < hits.size() && taken < n; ++i) {
+        if (hits[i] == kVoid) continue;
+        ++taken;
+        if (hits[i] > 0) neutral.insert(hits[i]);
+      }
+      EXPECT_DOUBLE_EQ(hit_ratio(without_void(hits), 12)[at],
+                       static_cast<double>(neutral.size()) / static_cast<double>(n));
+    }
+  }
 }
 
 TEST(HitRatioOfImage, BoundIsAllObjectsAtOnce) {

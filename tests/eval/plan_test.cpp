@@ -97,7 +97,7 @@ TEST(EvalPlan, JsonOfNoPlan) {
                                                                   {"selectors", R"(["none"])"},
                                                                   {"points", "0"},
                                                                   {"shard", "2"},
-                                                                  {"format", "2"}};
+                                                                  {"format", "3"}};
   for (const auto& [key, value] : wrong) {
     auto json = plan_json(sample_plan());
     json[key] = nlohmann::ordered_json::parse(value);

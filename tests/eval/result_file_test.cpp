@@ -7,6 +7,7 @@
 
 #include "core/error.hpp"
 #include "core/file.hpp"
+#include "eval/hit_ratio.hpp"
 #include "samples.hpp"
 #include "tests/support/folder_test.hpp"
 
@@ -66,6 +67,17 @@ TEST_F(ResultFileTest, WhatIsWrittenIsRead) {
   EXPECT_EQ(again.images[2].name, "a,\"b\"");
 }
 
+TEST_F(ResultFileTest, VoidIsWrittenAndRead) {
+  StoredResults results{sample_plan(), sample_images(), true};
+  results.images[0].void_known = true;
+  results.images[0].conditions[0].points[2].label = kVoid;
+  write_results(folder_, results);
+  const StoredResults again = read_results(folder_);
+  EXPECT_TRUE(again.images[0].void_known);
+  EXPECT_EQ(again.images[0].conditions[0].points[2].label, kVoid);
+  EXPECT_FALSE(again.images[2].void_known);
+}
+
 TEST_F(ResultFileTest, ANewFileHoldsThePlan) {
   const StoredResults results = resume_results(folder_, sample_plan());
   EXPECT_TRUE(results.images.empty());
@@ -89,14 +101,14 @@ TEST_F(ResultFileTest, ACutLastLineIsTakenOff) {
 }
 
 TEST_F(ResultFileTest, AnotherPlanIsNotGoneOnWith) {
-  resume_results(folder_, sample_plan());
+  EXPECT_TRUE(resume_results(folder_, sample_plan()).images.empty());
   EvalPlan other = sample_plan();
   other.points = 5;
-  EXPECT_THAT(error_of(ExitStatus::usage, [&] { resume_results(folder_, other); }),
+  EXPECT_THAT(error_of(ExitStatus::usage, [&] { return resume_results(folder_, other); }),
               HasSubstr("points is 3, not 5"));
   other = sample_plan();
   other.settings.last_level = 2;
-  EXPECT_THAT(error_of(ExitStatus::usage, [&] { resume_results(folder_, other); }),
+  EXPECT_THAT(error_of(ExitStatus::usage, [&] { return resume_results(folder_, other); }),
               HasSubstr("levels is \"0..4\", not \"0..2\""));
   EXPECT_EQ(text(), plan_line(sample_plan()) + "\n") << "nothing is lost";
 }
@@ -106,17 +118,18 @@ TEST_F(ResultFileTest, DamagedFilesAreNamedWithTheLine) {
   for (const std::string& bad : {std::string("{\n"), std::string("{}\n"), std::string("[]\n"),
                                  std::string("{\"frame\":0,\"name\":\"\"}\n"), std::string("\xff\xfe\n")}) {
     put(plan + image_line(sample_images()[0]) + "\n" + bad);
-    EXPECT_THAT(error_of(ExitStatus::unreadable, [&] { read_results(folder_); }),
+    EXPECT_THAT(error_of(ExitStatus::unreadable, [&] { return read_results(folder_); }),
                 HasSubstr("results.jsonl:3"));
     put(bad);
-    EXPECT_THAT(error_of(ExitStatus::unreadable, [&] { read_results(folder_); }),
+    EXPECT_THAT(error_of(ExitStatus::unreadable, [&] { return read_results(folder_); }),
                 HasSubstr("results.jsonl:1"));
   }
   ImageResult fewer = sample_images()[0];
   fewer.conditions.pop_back();
   put(plan + image_line(fewer) + "\n");
-  EXPECT_THAT(error_of(ExitStatus::unreadable, [&] { read_results(folder_); }), HasSubstr("numbers of"));
-  error_of(ExitStatus::unreadable, [&] { read_results(folder_ / "nowhere"); });
+  EXPECT_THAT(error_of(ExitStatus::unreadable, [&] { return read_results(folder_); }),
+              HasSubstr("numbers of"));
+  error_of(ExitStatus::unreadable, [&] { return read_results(folder_ / "nowhere"); });
 }
 
 TEST_F(ResultFileTest, MergedShardsAreTheWhole) {
@@ -129,7 +142,7 @@ TEST_F(ResultFileTest, MergedShardsAreTheWhole) {
 
 TEST_F(ResultFileTest, WhatCannotBeMerged) {
   const auto one = put_shard(1, 3), two = put_shard(2, 3);
-  const auto merge = [](const std::vector<fs::path>& folders) { merge_results(folders); };
+  const auto merge = [](const std::vector<fs::path>& folders) { return merge_results(folders); };
   EXPECT_THAT(error_of(ExitStatus::usage, [&] { merge({one, two}); }), HasSubstr("3/3 is missing"));
   EXPECT_THAT(error_of(ExitStatus::usage, [&] { merge({one, two, one}); }), HasSubstr("1/3 is given twice"));
   const auto three = put_shard(3, 3, false);

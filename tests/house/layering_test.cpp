@@ -25,8 +25,9 @@ const Floors kHouse = {
     {"src/pipeline", "drivers/modules"},
     {"src/output"},
     {"src/settings"},
-    {"src/eval", "ui"},
-    {"ui/viewer"},
+    {"src/eval", "ui/session"},
+    {"ui/panels", "ui/drawing"},
+    {"ui/window"},
     {"src/app"},
 };
 

@@ -45,7 +45,7 @@ TEST(Combined, WithoutDepthIsTheImageAlone) {
 }
 
 // Each step of the header in double, from the maps of the single models.
-TEST(Combined, IsTheWeighedSumOfItsMaps) {
+TEST(Combined, IsTheWeightedSumOfItsMaps) {
   const Frame frame = ball_and_picture(1100);
   WorkerPool pool(1);
   SaliencyMaps maps;
@@ -55,20 +55,20 @@ TEST(Combined, IsTheWeighedSumOfItsMaps) {
   std::vector<float> depths(frame.depth_mm.begin(), frame.depth_mm.end());
   std::sort(depths.begin(), depths.end());
   for (std::size_t l = 0; l < maps.levels.size(); ++l) {
-    cv::Mat1d weighed(maps.levels[l].size());
-    for (int r = 0; r < weighed.rows; ++r)
-      for (int c = 0; c < weighed.cols; ++c) {
+    cv::Mat1d weighted(maps.levels[l].size());
+    for (int r = 0; r < weighted.rows; ++r)
+      for (int c = 0; c < weighted.cols; ++c) {
         const double x = static_cast<double>(frame.depth_mm(r << l, c << l)) / (500 << l);
-        weighed(r, c) = static_cast<double>(maps.levels[l](r, c)) / (1 + x * x);
+        weighted(r, c) = static_cast<double>(maps.levels[l](r, c)) / (1 + x * x);
       }
     cv::Mat1d full(frame.size());
     for (int r = 0; r < full.rows; ++r)
       for (int c = 0; c < full.cols; ++c) {
         const int step = 1 << l, r0 = r / step, c0 = c / step;
-        const int r1 = std::min(r0 + 1, weighed.rows - 1), c1 = std::min(c0 + 1, weighed.cols - 1);
+        const int r1 = std::min(r0 + 1, weighted.rows - 1), c1 = std::min(c0 + 1, weighted.cols - 1);
         const double v = static_cast<double>(r % step) / step, u = static_cast<double>(c % step) / step;
-        full(r, c) = (1 - v) * ((1 - u) * weighed(r0, c0) + u * weighed(r0, c1)) +
-                     v * ((1 - u) * weighed(r1, c0) + u * weighed(r1, c1));
+        full(r, c) = (1 - v) * ((1 - u) * weighted(r0, c0) + u * weighted(r0, c1)) +
+                     v * ((1 - u) * weighted(r1, c0) + u * weighted(r1, c1));
       }
     noise_aware += full;
   }

@@ -52,7 +52,7 @@ double heidemann(double ti, double tj, double alpha) {
   return square(std::cos(gi + gj)) * square(std::cos(gi)) * square(std::cos(gj));
 }
 
-// Of one level: the sum over pairs of pixels and pairs of channels.
+// The score of one level: the sum over pairs of pixels and pairs of channels.
 double symmetry_at(const std::vector<cv::Mat1d>& channels, int r, int c, Angles angles) {
   constexpr double kSigma = 16;
   const int rows = channels[0].rows, cols = channels[0].cols;

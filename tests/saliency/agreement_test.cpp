@@ -36,7 +36,7 @@ INSTANTIATE_TEST_SUITE_P(Large, Kernel, testing::Values(32, 41, 63, 64, 100, 127
 class Size : public testing::TestWithParam<cv::Size> {};
 
 TEST_P(Size, AgreesWithTheReference) {
-  // A few pixels' worth of an excuse: one near-tie is more than 0.1 % of a tiny image.
+  // A few pixels are excused: one near-tie is more than 0.1 % of a tiny image.
   const double excused = std::max(0.001, 8.0 / GetParam().area());
   compare(ball_scene(GetParam(), 3), params_of(15, 0, 0), excused);
   compare(ball_scene(GetParam(), 4), params_of(5, 0, 0), excused);
@@ -117,7 +117,7 @@ TEST(Agreement, NearestAndFarthestReadingsSideBySide) {
 
 TEST(Agreement, EverythingAtOneMillimetre) { compare(cv::Mat1f(24, 37, 1.0f), params_of(15, 0, 0)); }
 
-// What excuses near-ties must not excuse mistakes.
+// The excuse for near-ties must not excuse errors.
 TEST(Agreement, AnErrorIsNoNearTie) {
   for (const int kernel : {5, 15}) {
     const Symmetry3dParams params = params_of(kernel, 0, 0);
@@ -137,8 +137,8 @@ TEST(Agreement, AnErrorIsNoNearTie) {
   }
 }
 
-// A point exactly on a plane is in neither half by the text, and in the one behind here. That it makes no
-// difference is seen where whole rows and columns lie on the planes.
+// A point exactly on a plane is in neither half in the reference, and in the one behind in the production
+// form. Here entire rows and columns lie on the planes, and it makes no difference.
 TEST(Agreement, PointsExactlyOnThePlanes) {
   cv::Mat1f depth(40, 51, 1000.0f);
   compare(depth, params_of(9, 0, 0));
@@ -146,7 +146,7 @@ TEST(Agreement, PointsExactlyOnThePlanes) {
   compare(depth, params_of(9, 0, 0));
 }
 
-// What follows uses real images, cut to a size that the reference can do.
+// The tests below use real images, cut to a size that the reference can process.
 class RealImage : public testing::TestWithParam<const char*> {};
 
 TEST_P(RealImage, AgreesWithTheReference) {

@@ -45,8 +45,9 @@ std::vector<std::string> runnable_simd() {
   return runnable;
 }
 
-// How far the float form may turn an axis, in radians: what is uncertain in the covariance over the distance
-// to the next eigenvalue. Normals are good to 1e-7 each and summed in units of 2^-23, rotations good to 5e-7.
+// How far the float form may turn an axis, in radians: the uncertainty of the covariance divided by the
+// distance to the next eigenvalue. Normals are exact to 1e-7 each and summed in units of 2^-23, rotations
+// exact to 5e-7.
 std::array<double, 3> axis_uncertainty(const Eigen::Vector3d& e) {
   const double covariance = 1e-8 + 5e-7 * e[2], low = e[1] - e[0], high = e[2] - e[1];
   return {1e-6 + covariance / low, 1e-6 + covariance / std::min(low, high), 1e-6 + covariance / high};
@@ -56,7 +57,7 @@ namespace {
 
 using Scores = std::array<std::vector<double>, 3>;  // of each plane
 
-// Adds what each plane scores with the points where `level` has them: twice where its gate may be either way.
+// Adds the score of plane i with the points of `level`; two scores where its gate may be open or shut.
 void add_scores(const reference::Level& level, int row, int col, const Symmetry3dParams& params,
                 std::size_t i, Scores& scores) {
   constexpr double kGate = 1e-5;
@@ -74,7 +75,7 @@ void add_scores(const reference::Level& level, int row, int col, const Symmetry3
   }
 }
 
-// The other points of the window whose side of a plane hangs on the last bits.
+// The other points of the window whose side of a plane depends on the last bits.
 std::vector<cv::Point> points_nearly_on(const reference::Level& level, int row, int col, int reach,
                                         const Eigen::Vector3d& gamma, double uncertainty) {
   std::vector<cv::Point> points;
@@ -116,7 +117,7 @@ Answer judge(const reference::Level& level, int row, int col, const Symmetry3dPa
     }
     for (const cv::Point& point : points) moved.points_mm(point) = level.points_mm(point);
   }
-  // One plane gives the answer, and no other need be above it.
+  // Some plane has the answer among its scores, and each plane has a score that is not above it.
   bool given = false;
   for (const auto& plane : scores) {
     if (*std::min_element(plane.begin(), plane.end()) > actual + tolerance) return Answer::wrong;
@@ -160,7 +161,7 @@ void Comparison::check_level(std::size_t i, const cv::Mat1f& actual, double noti
   for (int r = 0; r < errors.rows; ++r)
     for (int c = 0; c < errors.cols; ++c) {
       if (errors(r, c) <= noticed) continue;
-      // Moved points and a turned axis change a score by a little more.
+      // Moved points and a turned axis change a score a little more.
       const Answer answer = judge(levels[i], r, c, params, static_cast<double>(actual(r, c)), 10 * noticed);
       undefined += answer == Answer::undefined;
       EXPECT_NE(answer, Answer::wrong) << "level " << i << " of the list, row " << r << ", column " << c

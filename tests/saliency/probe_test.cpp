@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kSame = 1e-9;
 
-// Corners, borders and places all over the image.
+// Corners, borders and random pixels.
 std::vector<cv::Point> some_pixels(cv::Size size) {
   std::vector<cv::Point> pixels = {{0, 0},
                                    {size.width - 1, 0},
@@ -28,7 +28,7 @@ std::vector<cv::Point> some_pixels(cv::Size size) {
   return pixels;
 }
 
-// Every number of the probe against the maps of the whole image.
+// Checks every number of the probe against the maps of the entire image.
 void check_against_maps(const cv::Mat1f& depth, const Symmetry3dParams& params) {
   const cv::Size size = depth.size();
   const Intrinsics camera = camera_for(size);

@@ -1,4 +1,4 @@
-// Each kernel of the pyramid to the bit against the reference.
+// The pyramid of each instruction set against the reference, bit by bit.
 
 #include <cmath>
 
@@ -62,7 +62,7 @@ TEST(Pyramid, IsExactAtTheEndsOfTheRange) {
   expect_same_pyramid(depth);
 }
 
-TEST(Pyramid, TellsWhatDepthsAreLike) {
+TEST(Pyramid, ReportsTheRangeOfDepths) {
   cv::Mat1f depth = ball_scene({50, 40}, 44);
   depth(7, 49) = 4321;
   for (const std::string& simd : runnable_simd()) {
@@ -95,7 +95,7 @@ TEST(DepthPacking, ItsSumsStayExact) {
       }
 }
 
-TEST(DepthPacking, HoldsTheWindowsOfSensorsWhole) {
+TEST(DepthPacking, HoldsEntireWindowsOfSensors) {
   EXPECT_EQ(DepthPacking::for_depths(8000, true, 15).columns, 15);
 }
 

@@ -1,4 +1,4 @@
-// The reference operator against what can be worked out by hand.
+// The reference operator against results worked out by hand.
 
 #include "saliency/reference.hpp"
 

@@ -24,7 +24,7 @@ inline cv::Mat1d to_double(const cv::Mat1f& image) {
   return result;
 }
 
-/// Depth of a plane n.p = offset_mm; 0 where a ray does not meet it in front of the camera.
+/// Depth of the plane n.p = offset_mm; 0 where a ray does not meet it in front of the camera.
 inline cv::Mat1f plane_depth(cv::Size size, const Intrinsics& camera, cv::Vec3d n, double offset_mm) {
   cv::Mat1f depth(size, 0.0f);
   for (int r = 0; r < size.height; ++r)
@@ -36,7 +36,7 @@ inline cv::Mat1f plane_depth(cv::Size size, const Intrinsics& camera, cv::Vec3d 
   return depth;
 }
 
-/// Puts a sphere in front of what is there.
+/// Adds a sphere; the nearer surface stays.
 inline void add_sphere(cv::Mat1f& depth, const Intrinsics& camera, cv::Point3d centre, double radius_mm) {
   for (int r = 0; r < depth.rows; ++r)
     for (int c = 0; c < depth.cols; ++c) {
@@ -81,7 +81,7 @@ inline void degrade(cv::Mat1f& depth, unsigned seed, float step_mm = 1, double h
   }
 }
 
-/// A tilted table with two balls before a wall, as a sensor sees it.
+/// A tilted table with two balls in front of a wall, with the noise and holes of degrade().
 inline cv::Mat1f ball_scene(cv::Size size, unsigned seed = 1, float step_mm = 1) {
   const Intrinsics camera = camera_for(size);
   cv::Mat1f depth = plane_depth(size, camera, {0.2, 0, 1}, 1500);

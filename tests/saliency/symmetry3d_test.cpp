@@ -1,4 +1,4 @@
-// What the production form promises besides its values.
+// Guarantees of the production form besides its values.
 
 #include "saliency/symmetry3d.hpp"
 
@@ -20,7 +20,7 @@ namespace {
 std::atomic<long> allocations{0};
 }
 
-// Counts what is asked for in any thread. Not inlined, since compilers know what belongs to what.
+// Counts allocations of all threads. Not inlined: compilers may remove pairs of new and delete that they see.
 [[gnu::noinline]] void* operator new(std::size_t size) {
   ++allocations;
   if (void* memory = std::malloc(size)) return memory;
@@ -114,12 +114,12 @@ TEST(Symmetry3d, AFlatSceneGivesNearlyNothing) {
                   tilted = plane_depth(size, camera_for(size), {0.3, -0.5, 0.8}, 1000);
   for (const std::string& simd : runnable_simd()) {
     EXPECT_LT(cv::norm(compute(frontal, three_levels(), 1, simd).master, cv::NORM_INF), 1e-9) << simd;
-    // Levels are rounded to 1/8 mm, which is a little rough.
+    // Rounding levels to 1/8 mm leaves a little roughness.
     EXPECT_LT(cv::norm(compute(tilted, three_levels(), 1, simd).master, cv::NORM_INF), 1e-4) << simd;
   }
 }
 
-TEST(Symmetry3d, WhatIsNoDepthCountsAsNoReading) {
+TEST(Symmetry3d, InvalidValuesCountAsNoReading) {
   cv::Mat1f depth = ball_scene({80, 60}, 26);
   cv::Mat1f clean = depth.clone();
   const float strange[] = {-5, std::numeric_limits<float>::quiet_NaN(),
@@ -146,7 +146,7 @@ TEST(Symmetry3d, NormalsAreThoseOfTheReference) {
     }
 }
 
-TEST(Symmetry3d, GivesOnlyWhatIsWanted) {
+TEST(Symmetry3d, GivesOnlyTheRequestedOutputs) {
   const SaliencyMaps maps = compute(ball_scene({80, 60}, 28), three_levels());
   EXPECT_TRUE(maps.levels.empty());
   EXPECT_TRUE(maps.normals.empty());
@@ -214,7 +214,7 @@ TEST(Symmetry3d, RefusesLevelsThatAreTooSmall) {
   EXPECT_THROW(op.compute(depth, camera_for(depth.size()), {}, maps, times), Error);
 }
 
-TEST(Symmetry3d, RefusesACameraThatIsNone) {
+TEST(Symmetry3d, RefusesAnInvalidCamera) {
   WorkerPool pool(1);
   Symmetry3d op(three_levels(), pool);
   SaliencyMaps maps;

@@ -57,6 +57,7 @@ TEST_F(FolderSourceTest, ReadsFramesInTheOrderOfTheirNumbersWithColourAndLabels)
   put_depth("9_depth.png", 65535);
   put("9_rgb.png", cv::Mat3b(12, 16, cv::Vec3b(1, 2, 3)));
   put("9_label.png", cv::Mat1b(12, 16, std::uint8_t{7}));
+  put("9_class.png", cv::Mat1w(12, 16, std::uint16_t{300}));
   put_text("notes.txt", "not a frame");
   const auto source = open_source(folder_.string());
   EXPECT_EQ(source->info().frame_count, 2);
@@ -69,12 +70,14 @@ TEST_F(FolderSourceTest, ReadsFramesInTheOrderOfTheirNumbersWithColourAndLabels)
   EXPECT_EQ(frame.depth_mm(3, 4), 65535.0F);
   EXPECT_EQ(frame.colour(3, 4), cv::Vec3b(1, 2, 3)) << "BGR";
   EXPECT_EQ(frame.truth.labels(3, 4), 7);
+  EXPECT_EQ(frame.truth.classes(3, 4), 300) << "16 bits";
   ASSERT_EQ(source->read(frame, kNoWait).status, ReadStatus::frame);
   EXPECT_EQ(frame.index, 1);
   EXPECT_EQ(frame.timestamp_us, 33333);
   EXPECT_EQ(frame.depth_mm(0, 0), 1010.0F);
   EXPECT_TRUE(frame.colour.empty()) << "nothing of the frame before";
   EXPECT_TRUE(frame.truth.labels.empty());
+  EXPECT_TRUE(frame.truth.classes.empty());
   EXPECT_EQ(source->read(frame, kNoWait).status, ReadStatus::end);
   source->seek(1);
   ASSERT_EQ(source->read(frame, kNoWait).status, ReadStatus::frame);
@@ -166,6 +169,11 @@ TEST_F(FolderSourceTest, OtherSizesOfDepthColourAndLabelsAreRejected) {
   EXPECT_THAT(rejection(), HasSubstr("1_label.png"));
   put("1_label.png", cv::Mat3b(12, 16, cv::Vec3b()));
   EXPECT_THAT(rejection(), HasSubstr("labels must be grey or palette"));
+  put("1_label.png", cv::Mat1b(12, 16, std::uint8_t{1}));
+  put("1_class.png", cv::Mat3b(12, 16));
+  EXPECT_THAT(rejection(), HasSubstr("1_class.png: classes must be grey or palette"));
+  put("1_class.png", cv::Mat1b(12, 15));
+  EXPECT_THAT(rejection(), HasSubstr("1_class.png: 15x12, but the depth is 16x12"));
 }
 
 TEST_F(FolderSourceTest, EmptyAndMissingFoldersAreErrors) {

@@ -136,6 +136,9 @@ TEST_F(NyuSourceTest, ReadsImagesDepthsAndObjects) {
     EXPECT_EQ(frame.truth.labels(6, 9), 3) << "class 300";
     EXPECT_EQ(frame.truth.labels(kHeight - 1, 4), 0);
     EXPECT_EQ(frame.truth.labels(0, 4), 0);
+    EXPECT_EQ(frame.truth.classes(6, 9), 300);
+    EXPECT_EQ(frame.truth.classes(0, 4), 7) << "structure: a class, no instance";
+    EXPECT_EQ(frame.truth.classes(kHeight - 1, 4), 0) << "void";
   }
   EXPECT_EQ(source->read(frame, kNoWait).status, ReadStatus::end);
   source->seek(1);

@@ -7,7 +7,7 @@ namespace saccade {
 void CloudPanel::draw(ViewContext& view) {
   if (!view.result) return;
   CloudStyle& style = view.state.cloud;
-  view.wants.normals = style.lit || style.needles;
+  view.outputs.normals = style.lit || style.needles;
   const Computed& computed = view.result->a;
   if (!picture_) picture_ = view.graphics.make_cloud_picture();
   const CloudFrame frame{view.result->frame(), computed.smooth, computed.result.maps.normals,

@@ -7,6 +7,7 @@
 
 #include "core/error.hpp"
 #include "core/file.hpp"
+#include "sources/open_source.hpp"
 #include "ui/panels/panels.hpp"
 #include "ui/panels/widgets.hpp"
 
@@ -40,7 +41,7 @@ struct Entry {
   bool folder = false;
 };
 
-// Folders and recordings in a folder, by name.
+// The folders in a folder, and the files that look like a source, by name.
 std::vector<Entry> entries_of(const fs::path& folder) {
   std::vector<Entry> entries;
   std::error_code code;
@@ -49,8 +50,7 @@ std::vector<Entry> entries_of(const fs::path& folder) {
     const std::string name = i->path().filename().string();
     std::error_code kind;
     const bool is_folder = i->is_directory(kind);
-    const auto ending = i->path().extension();
-    if (!name.starts_with('.') && (is_folder || ending == ".oni" || ending == ".mat"))
+    if (!name.starts_with('.') && (is_folder || has_source_ending(i->path())))
       entries.push_back({name, is_folder});
   }
   std::sort(entries.begin(), entries.end(),
@@ -66,7 +66,9 @@ void OpenDialog::draw(ViewContext& view) {
   if (opening_ && text_[0] == '\0') set_text(text_, sizeof text_, fs::current_path().string() + "/");
   if (!begin_dialog(view, "Open a source", opening_, 620)) return;
   std::string chosen;
-  ImGui::TextDisabled("A recording (.oni), a folder of images, synthetic:table, or a sensor (openni2)");
+  ImGui::PushTextWrapPos(0);
+  ImGui::TextDisabled("%s", source_forms().c_str());
+  ImGui::PopTextWrapPos();
   if (std::exchange(focus_, false)) ImGui::SetKeyboardFocusHere();
   ImGui::SetNextItemWidth(-view.px(80));
   if (ImGui::InputText("##uri", text_, sizeof text_, ImGuiInputTextFlags_EnterReturnsTrue)) chosen = text_;

@@ -66,8 +66,8 @@ void ProbePanel::draw(ViewContext& view) {
   } else {
     const Source source{view.result->serial, on_b_ && view.result->compared, *pixel_};
     if (source_ != source) probe_pixel(view, source);
-    view.wants.levels = view.state.settings.a.normalisation != LevelNormalisation::none ||
-                        view.state.settings.b.normalisation != LevelNormalisation::none;
+    view.outputs.levels = view.state.settings.a.normalisation != LevelNormalisation::none ||
+                          view.state.settings.b.normalisation != LevelNormalisation::none;
   }
   draw_probe(shown_, state_);
   if (shown_)

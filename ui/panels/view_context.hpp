@@ -38,7 +38,7 @@ struct ViewContext {
   // Of the source that is open:
   Timeline timeline;
   StageHistory history;
-  RequestedOutputs wants;  ///< by-products that a panel needs; cleared before each frame
+  RequestedOutputs outputs;  ///< by-products that a panel needs; cleared before each frame
 
   RecordingStatus recording;  ///< of the recording that runs, or of the last one
   std::string snapshot;       ///< folder of the last snapshot; empty = there was none

@@ -112,7 +112,7 @@ void InteractiveProcessor::process(Result& result) {
     if (!known) known_.reset();
     const auto slow = [&](const Settings& settings, Computed ViewResult::*side) {
       return draft_of(settings, result.frame.size()) &&
-             !(known_ && has_maps(*known_.*side, settings, request.wants));
+             !(known_ && has_maps(*known_.*side, settings, request.outputs));
     };
     try {
       const bool any_slow =
@@ -147,10 +147,10 @@ std::shared_ptr<ViewResult> InteractiveProcessor::compute(const Result& result, 
   a.captured_at = result.captured_at;
   const auto fill = [&](ModelRunner& whole, ModelRunner& draft, Settings settings, const Computed* known,
                         Computed& out) {
-    const bool has = known != nullptr && has_maps(*known, settings, request.wants);
+    const bool has = known != nullptr && has_maps(*known, settings, request.outputs);
     const auto reduced = view->draft && !has ? draft_of(settings, a.frame.size()) : std::nullopt;
     out.draft = reduced.has_value();
-    (reduced ? draft : whole).compute(reduced.value_or(settings), request.wants, known, out);
+    (reduced ? draft : whole).compute(reduced.value_or(settings), request.outputs, known, out);
   };
   fill(*a_, *draft_a_, request.a, known_ ? &known_->a : nullptr, view->a);
   if (request.b) {

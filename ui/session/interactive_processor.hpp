@@ -15,7 +15,7 @@ namespace saccade {
 struct ComputeRequest {
   Settings a;                 ///< its intrinsics, if there are any, take the place of the frame's
   std::optional<Settings> b;  ///< a second computation of the same frame
-  RequestedOutputs wants;     ///< by-products of both, where the model has them
+  RequestedOutputs outputs;   ///< by-products of both, where the model has them
 };
 
 /// A processor whose settings may change between frames: each frame is computed with the newest request, and

@@ -23,24 +23,24 @@ void copy_attention(const Attention& from, Attention& to) {
 
 }  // namespace
 
-bool has_maps(const Computed& of, Settings settings, RequestedOutputs wants) {
+bool has_maps(const Computed& of, Settings settings, RequestedOutputs outputs) {
   settings.last_level = last_level_for(settings, of.result.frame.size());
   return of.error.empty() && same_values(SettingScope::model, of.settings, settings) &&
-         of.wants.levels == wants.levels && of.wants.normals == wants.normals;
+         of.outputs.levels == outputs.levels && of.outputs.normals == outputs.normals;
 }
 
-void ModelRunner::compute(const Settings& wanted, RequestedOutputs wants, const Computed* last,
+void ModelRunner::compute(const Settings& wanted, RequestedOutputs outputs, const Computed* last,
                           Computed& out) {
   const Frame& frame = out.result.frame;
   Settings settings = wanted;
   settings.last_level = last_level_for(settings, frame.size());
   out.settings = settings;
-  out.wants = wants;
+  out.outputs = outputs;
   out.error.clear();
   try {
     prepare(settings, frame.size());
-    find_maps(settings, wants, last, out);
-    if (last != nullptr && has_maps(*last, settings, wants) &&
+    find_maps(settings, outputs, last, out);
+    if (last != nullptr && has_maps(*last, settings, outputs) &&
         same_values(SettingScope::attention, last->settings, settings)) {
       copy_attention(last->result.attention, out.result.attention);
       out.outlines = last->outlines;
@@ -60,14 +60,14 @@ void ModelRunner::compute(const Settings& wanted, RequestedOutputs wants, const 
   out.outlines = proto_outlines(out.result.attention);
 }
 
-void ModelRunner::find_maps(const Settings& settings, RequestedOutputs wants, const Computed* last,
+void ModelRunner::find_maps(const Settings& settings, RequestedOutputs outputs, const Computed* last,
                             Computed& out) {
-  if (last != nullptr && has_maps(*last, settings, wants)) {
+  if (last != nullptr && has_maps(*last, settings, outputs)) {
     copy_maps(last->result.maps, out.result.maps);
     last->smooth.copyTo(out.smooth);
     return;
   }
-  model_->compute(out.result.frame, wants, out.result.maps, out.result.times);
+  model_->compute(out.result.frame, outputs, out.result.maps, out.result.times);
   out.smooth = smooth_for_looking(out.result.maps.master);
 }
 

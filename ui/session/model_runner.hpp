@@ -19,11 +19,11 @@ class ModelRunner {
   /// Fills `out`, of which result.frame is filled. What cannot be computed is told in out.error. `last`, if
   /// not null, is a result of the same frame by any runner: what the settings leave as it was is taken from
   /// it, which gives the same as computing it again. Throws WorkerPool::Interrupted.
-  void compute(const Settings& settings, RequestedOutputs wants, const Computed* last, Computed& out);
+  void compute(const Settings& settings, RequestedOutputs outputs, const Computed* last, Computed& out);
 
  private:
   void prepare(const Settings& settings, cv::Size image);
-  void find_maps(const Settings& settings, RequestedOutputs wants, const Computed* last, Computed& out);
+  void find_maps(const Settings& settings, RequestedOutputs outputs, const Computed* last, Computed& out);
 
   WorkerPool& pool_;
   std::unique_ptr<SaliencyModel> model_;
@@ -33,7 +33,7 @@ class ModelRunner {
 
 /// Whether the maps of `of` are those that these settings give for its frame, with all by-products that are
 /// wanted.
-bool has_maps(const Computed& of, Settings settings, RequestedOutputs wants);
+bool has_maps(const Computed& of, Settings settings, RequestedOutputs outputs);
 
 /// The settings of a first draft for images of this size, of at most about 50 ms of the operator on two
 /// processors: windows of about the same size on the image, from coarser levels with smaller kernels. None if

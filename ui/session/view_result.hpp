@@ -13,12 +13,12 @@ namespace saccade {
 
 /// What one set of settings made of a frame.
 struct Computed {
-  Settings settings;       ///< with which it was computed; the default levels cut to what the frame has
-                           ///< room for
-  bool draft = false;      ///< of coarser levels; see draft_of()
-  RequestedOutputs wants;  ///< by-products that were asked for
-  Result result;           ///< the frame too
-  cv::Mat1f smooth;        ///< smooth_for_looking() of the map
+  Settings settings;         ///< with which it was computed; the default levels cut to what the frame has
+                             ///< room for
+  bool draft = false;        ///< of coarser levels; see draft_of()
+  RequestedOutputs outputs;  ///< by-products that were asked for
+  Result result;             ///< the frame too
+  cv::Mat1f smooth;          ///< smooth_for_looking() of the map
   std::vector<Outline> outlines;  ///< proto_outlines() of the fixations
   std::string error;              ///< why there is no map; empty = there is one
 };

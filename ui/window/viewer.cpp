@@ -19,8 +19,8 @@ constexpr double kSlowRefresh_s = 0.25, kIdle_s = 60, kHeartbeat_s = 0.025;
 
 bool same_request(const ComputeRequest& x, const ComputeRequest& y) {
   return same_settings(x.a, y.a) && x.b.has_value() == y.b.has_value() &&
-         (!x.b || same_settings(*x.b, *y.b)) && x.wants.levels == y.wants.levels &&
-         x.wants.normals == y.wants.normals;
+         (!x.b || same_settings(*x.b, *y.b)) && x.outputs.levels == y.outputs.levels &&
+         x.outputs.normals == y.outputs.normals;
 }
 
 }  // namespace
@@ -165,7 +165,7 @@ void Viewer::draw_frame() {
   scale_ui();
   window_.begin_frame();
   handle_keys();
-  view_.wants = {};
+  view_.outputs = {};
   view_.can_undo = history_.can_undo();
   view_.can_redo = history_.can_redo();
   view_.renewed.clear();
@@ -182,7 +182,7 @@ void Viewer::send_compute_request() {
   if (state_.comparing() && same_settings(state_.settings.a, state_.settings.b) && !sent_.b)
     state_.settings.b.kernel =
         std::clamp(2 * state_.settings.a.kernel + 1, 3, 127);  // something to compare with
-  ComputeRequest request{state_.settings.a, {}, view_.wants};
+  ComputeRequest request{state_.settings.a, {}, view_.outputs};
   if (state_.comparing()) request.b = state_.settings.b;
   if (same_request(request, sent_)) return;
   const bool a_changed = !same_settings(request.a, sent_.a);

@@ -1,4 +1,4 @@
-// The axes of the Extended Gaussian Image (section 2.1), compiled once for each instruction set.
+// The axes of the Extended Gaussian Image, section 2.1; compiled once for each instruction set.
 #if defined(SACCADE_SALIENCY_AXES_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef SACCADE_SALIENCY_AXES_INL
 #undef SACCADE_SALIENCY_AXES_INL
@@ -6,9 +6,8 @@
 #define SACCADE_SALIENCY_AXES_INL
 #endif
 
-#include <limits>
-
 #include <algorithm>
+#include <limits>
 
 #include "saliency/simd/level_planes.hpp"
 #include "saliency/simd/row_scratch.hpp"
@@ -19,8 +18,8 @@ HWY_BEFORE_NAMESPACE();
 namespace saccade {
 namespace HWY_NAMESPACE {
 
-/// Of each pixel of row r: the covariance of the normals, and the sums that the halves are taken from. The
-/// covariance is a difference of nearly equal numbers where surfaces are flat; in double it is exact enough.
+/// For each pixel of row r: the covariance of the normals and the sums over the whole window. The covariance
+/// is a difference of nearly equal numbers where surfaces are flat, so it is computed in double.
 HWY_INLINE void window_statistics(const LevelPlanes& level, int r, int reach, WindowPrefixSums& sums,
                                   RowStatistics& statistics) {
   using S = RowStatistics;
@@ -46,7 +45,7 @@ HWY_INLINE void window_statistics(const LevelPlanes& level, int r, int reach, Wi
     const VD x = normal(C::kX), y = normal(C::kY), z = normal(C::kZ);
     const VD xx = normal(C::kXX), yy = normal(C::kYY), zz = normal(C::kZZ);
     const VD n = hn::Round(hn::Add(xx, hn::Add(yy, zz)));  // normals have length 1
-    // n^2 times the covariance: its scale does not matter to the axes.
+    // n^2 times the covariance; the axes do not depend on its scale.
     put(S::kCovXX, hn::NegMulAdd(x, x, hn::Mul(n, xx)));
     put(S::kCovYY, hn::NegMulAdd(y, y, hn::Mul(n, yy)));
     put(S::kCovZZ, hn::NegMulAdd(z, z, hn::Mul(n, zz)));
@@ -56,7 +55,7 @@ HWY_INLINE void window_statistics(const LevelPlanes& level, int r, int reach, Wi
 
     const auto centre = [&](LevelPlanes::Plane plane)
                             HWY_ATTR { return hn::PromoteTo(dd, hn::Load(dhf, level.row(plane, r) + c)); };
-    // The sum of depths takes all 32 bits, which are to be read without sign.
+    // The sum of depths uses all 32 bits and is unsigned.
     const auto top = hn::Set(dhi, std::numeric_limits<std::int32_t>::min());
     const VD z_units =
         hn::Sub(hn::PromoteTo(dd, hn::Xor(integer(WindowPrefixSums::kDepth), top)), hn::PromoteTo(dd, top));
@@ -72,18 +71,17 @@ HWY_INLINE void window_statistics(const LevelPlanes& level, int r, int reach, Wi
   }
 }
 
-/// A symmetric matrix on its way to diagonal form, and the product of the rotations so far.
+/// A symmetric matrix that rotations bring to diagonal form, and the product of the rotations so far.
 struct Diagonalisation {
   VF xx, yy, zz, xy, xz, yz;
-  VF axes[3][2];  ///< [axis][x, y]; z is known from these
+  VF axes[3][2];  ///< [axis][x, y]; z follows from these
 };
 
-/// One Jacobi rotation: makes the element apq 0. arp and arq are the elements that p and q share with the
-/// third index.
+/// One Jacobi rotation, which makes apq 0. arp and arq are the elements of p and q with the third index.
 HWY_INLINE void rotate(VF& app, VF& aqq, VF& apq, VF& arp, VF& arq, VF (&axis_p)[2], VF (&axis_q)[2]) {
   // cos(2a) = |d|/h and sin(2a) = 2apq/h with h^2 = d^2 + (2apq)^2 for the smaller of the two angles.
   const VF difference = hn::Sub(aqq, app), twice = hn::Add(apq, apq);
-  const VF magnitude = hn::Max(hn::Abs(difference), set(1e-15f));  // no turn where all is 0
+  const VF magnitude = hn::Max(hn::Abs(difference), set(1e-15f));  // no rotation of a zero matrix
   const VF inverse = reciprocal_sqrt(hn::MulAdd(magnitude, magnitude, hn::Mul(twice, twice)));
   const VF square_of_c = hn::MulAdd(hn::Mul(magnitude, inverse), set(0.5f), set(0.5f));
   const VF inverse_of_c = reciprocal_sqrt(square_of_c);
@@ -103,8 +101,8 @@ HWY_INLINE void rotate(VF& app, VF& aqq, VF& apq, VF& arp, VF& arq, VF (&axis_p)
   }
 }
 
-/// Turns the axes round (which leaves them right-handed) so that the one of the smallest eigenvalue, whose
-/// plane lies along the surface, comes last: the lanes of a vector then agree about which plane is which.
+/// Permutes the axes cyclically (which leaves them right-handed) so that the one of the smallest eigenvalue,
+/// whose plane lies along the surface, comes last: the lanes of a vector then agree on which plane is which.
 HWY_INLINE void last_is_smallest(Diagonalisation& a) {
   const MF first = hn::And(hn::Lt(a.xx, a.yy), hn::Lt(a.xx, a.zz)), second = hn::Lt(a.yy, a.zz);
   for (int j = 0; j < 2; ++j) {
@@ -115,8 +113,8 @@ HWY_INLINE void last_is_smallest(Diagonalisation& a) {
   }
 }
 
-/// Eigenvectors of the covariance in the groups of a row, by cyclic Jacobi rotations. Several groups go
-/// together because each rotation waits for the one before; the last one fills up their number.
+/// Eigenvectors of the covariance in the groups of a row, by cyclic Jacobi rotations. Each rotation depends
+/// on the one before, so kTogether groups are processed together; the last group is repeated to fill up.
 HWY_INLINE void gaussian_image_axes(RowStatistics& statistics) {
   using S = RowStatistics;
   constexpr std::size_t kTogether = 4;
@@ -153,7 +151,7 @@ HWY_INLINE void gaussian_image_axes(RowStatistics& statistics) {
         const VF(&next)[2] = m[g].axes[(i + 1) % 3], (&last)[2] = m[g].axes[(i + 2) % 3];
         put(0, m[g].axes[i][0]);
         put(1, m[g].axes[i][1]);
-        put(2, hn::NegMulAdd(next[1], last[0], hn::Mul(next[0], last[1])));  // of next x last
+        put(2, hn::NegMulAdd(next[1], last[0], hn::Mul(next[0], last[1])));  // z of next x last
       }
   }
 }

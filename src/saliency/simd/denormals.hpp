@@ -8,8 +8,8 @@
 
 namespace saccade {
 
-/// While it lives, this thread's floating-point unit takes denormal numbers as 0 and gives 0 for them. They
-/// arise where surfaces are flat, mean nothing there, and cost a hundred cycles each.
+/// During its lifetime this thread's floating-point unit replaces denormal operands and results by 0.
+/// Denormals arise where surfaces are flat, carry no information there, and cost a hundred cycles each.
 class DenormalsAreZero {
  public:
 #if defined(__SSE2__)
@@ -32,7 +32,7 @@ class DenormalsAreZero {
  private:
   std::uint64_t saved_;
 #else
-  DenormalsAreZero() {}  // slower, but as right
+  DenormalsAreZero() {}  // slower, but equally correct
   ~DenormalsAreZero() {}
 #endif
 

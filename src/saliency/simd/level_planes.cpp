@@ -57,4 +57,17 @@ void LevelPlanes::scale_scores(float weight) {
   }
 }
 
+void LevelPlanes::copy_scores(cv::Mat1f& map) const {
+  map.create(height_, width_);
+  for (int r = 0; r < height_; ++r) std::copy_n(row(kScore, r), width_, map[r]);
+}
+
+void LevelPlanes::copy_normals(cv::Mat3f& normals) const {
+  normals.create(height_, width_);
+  for (int r = 0; r < height_; ++r) {
+    const float *x = row(kNormalX, r), *y = row(kNormalY, r), *z = row(kNormalZ, r);
+    for (int c = 0; c < width_; ++c) normals(r, c) = {x[c], y[c], z[c]};
+  }
+}
+
 }  // namespace saccade

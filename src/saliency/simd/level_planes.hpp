@@ -10,31 +10,33 @@
 
 namespace saccade {
 
-/// How a pixel's depth and the number one share 32 bits, so that one addition counts and sums: the depth, in
-/// whole units, in the lower `depth_bits`, and a one above them. The sum of `columns` columns of a window
-/// keeps both exact.
+/// How a pixel's depth and the number 1 share 32 bits, so that one addition both counts and sums: the depth,
+/// as an integer number of units, in the lower `depth_bits` bits, and the 1 above them. The sum over
+/// `columns` columns of a window keeps both exact.
 struct DepthPacking {
-  static constexpr int kMostUnits = 1 << 19;  ///< no depth has more: 65535 mm in eighths
+  static constexpr int kMostUnits = 1 << 19;  ///< upper limit of a depth: 65535 mm in eighths
 
   float units_per_mm = 8;
   int depth_bits = 0;
   int columns = 0;
 
-  int one() const { return 1 << depth_bits; }               ///< what a pixel adds besides its depth
+  int one() const { return 1 << depth_bits; }               ///< the 1 that a pixel adds to the count
   int depth_mask() const { return (1 << depth_bits) - 1; }  ///< the bits of the depth
 
-  /// For depths up to `largest_mm`, itself at most 65535, and windows of `rows` rows and columns. If all are
-  /// multiples of 1/8 mm (as every level but the first is, and that too with a usual sensor) nothing is
-  /// rounded; else depths are rounded to units of down to 1/256 mm where they are summed, and nowhere else.
-  /// Differs: beyond 33 m the largest windows have no room for eighths and sum in coarser units.
+  /// For depths up to `largest_mm` <= 65535 and windows of `rows` rows and columns. If all depths are
+  /// multiples of 1/8 mm, nothing is rounded; that holds on every level but the first, and there too for
+  /// usual sensors. Otherwise depths are rounded, in these sums only, to units of 1/256 mm or as coarse as
+  /// the range needs.
+  /// Differs from section 2: beyond 33 m the largest windows sum in units coarser than eighths.
   static DepthPacking for_depths(float largest_mm, bool multiples_of_eighths, int rows);
 };
 
-/// One pyramid level as structure of arrays. Around each image there are margins, which hold invalid pixels,
-/// so that the kernels need no test for the border in the columns.
+/// One pyramid level as a structure of arrays. Margins of invalid pixels surround each image, so that the
+/// stages need no border test in the columns.
 ///
-/// Every plane has height + 2 * kMarginRows rows of `stride` floats; `at(row, col)` is the same place in each
-/// of them. Rows -kMarginRows and columns -margin_cols() may be addressed. Column 0 is aligned to a vector.
+/// Every plane has height + 2 * kMarginRows rows of `stride` floats, of which column 0 is aligned to a
+/// vector; `at(row, col)` is the same offset in each. Rows from -kMarginRows and columns from -margin_cols()
+/// on may be addressed.
 class LevelPlanes {
  public:
   enum Plane {
@@ -45,14 +47,14 @@ class LevelPlanes {
     kNormalX,        ///< unit normals, 0 = none
     kNormalY,
     kNormalZ,
-    kScore,  ///< the symmetry map of this level, then the sum of it and of the coarser ones
+    kScore,  ///< the symmetry map of this level; add_upsampled_rows() adds the coarser levels to it
     kPlanes
   };
 
-  static constexpr int kMarginRows = 2;     ///< what the 5 x 5 windows of the normals reach
+  static constexpr int kMarginRows = 2;     ///< reach of the 5 x 5 windows of the normals
   static constexpr int kVectorFloats = 16;  ///< the widest vector
 
-  /// Memory for an image of `size` seen by windows that reach `reach` columns; all pixels invalid.
+  /// For an image of `size` and windows that reach `reach` columns; all pixels invalid.
   LevelPlanes(cv::Size size, int reach);
 
   int width() const { return width_; }
@@ -66,8 +68,10 @@ class LevelPlanes {
   float* row(Plane p, int r) { return planes_[p] + at(r, 0); }
   const float* row(Plane p, int r) const { return planes_[p] + at(r, 0); }
 
-  /// Multiplies the map of the level, kScore.
   void scale_scores(float weight);
+  /// Copy without margins, reusing memory: h x w.
+  void copy_scores(cv::Mat1f& map) const;
+  void copy_normals(cv::Mat3f& normals) const;
 
   Intrinsics camera;     ///< of this level
   DepthPacking packing;  ///< of kPacked

@@ -1,4 +1,4 @@
-// The sum of the levels, Eq. (15), compiled once for each instruction set.
+// The sum of the levels, section 3; compiled once for each instruction set.
 #if defined(SACCADE_SALIENCY_MASTER_MAP_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef SACCADE_SALIENCY_MASTER_MAP_INL
 #undef SACCADE_SALIENCY_MASTER_MAP_INL
@@ -17,9 +17,9 @@ HWY_BEFORE_NAMESPACE();
 namespace saccade {
 namespace HWY_NAMESPACE {
 
-/// SimdStages::add_upsampled_rows. A bilinear map of level l, sampled at the pixels of level l - 1 and
-/// interpolated between them, is the same bilinear map; so that it can go down level by level, each step a
-/// mean of two.
+/// SimdStages::add_upsampled_rows: one step of Eq. (15). Sampling the bilinear interpolation of level l at
+/// the pixels of level l - 1 and interpolating between them gives the same function. So maps can be upsampled
+/// level by level, and each step is a mean of two neighbours.
 void add_upsampled_rows(LevelPlanes& fine, float weight, const LevelPlanes& coarse, int begin, int end,
                         RowScratch& scratch) {
   const DenormalsAreZero denormals;

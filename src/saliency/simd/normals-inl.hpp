@@ -1,4 +1,4 @@
-// Normals and the operator's points (SPEC 1.3), compiled once for each instruction set.
+// Normals and the operator's points, section 1.3; compiled once for each instruction set.
 #if defined(SACCADE_SALIENCY_NORMALS_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef SACCADE_SALIENCY_NORMALS_INL
 #undef SACCADE_SALIENCY_NORMALS_INL
@@ -18,8 +18,8 @@ namespace HWY_NAMESPACE {
 constexpr int kNormalReach = 2;  // 5 x 5
 
 /// Sums of the least-squares fit of q = a*u + b*v + c over the pixels (u, v) of a window that continue the
-/// centre's surface, with q = z0/z - 1: the inverse depth against the centre's, in units of the centre's.
-/// The z in q are differences of depths, which are exact: nothing cancels.
+/// centre's surface. q = z0/z - 1 is the inverse depth relative to the centre's; computed as (z0 - z)/z it
+/// does not cancel, since differences of depths are exact.
 struct PlaneFitSums {
   VF n, u, v, uu, vv, uv, q, uq, vq;
 };
@@ -56,9 +56,9 @@ HWY_INLINE PlaneFitSums sum_plane_fit(const LevelPlanes& level, std::ptrdiff_t a
   return s;
 }
 
-/// The normal of the fitted plane at pixel (row, col..); `found` tells which lanes have one.
+/// The normals of the fitted planes at pixels (row, col..); `found` marks the lanes that have one.
 HWY_INLINE Vec3 normal_of_fit(const PlaneFitSums& s, const Intrinsics& camera, int row, int col, MF& found) {
-  // n times the central moments. Those of u and v are whole numbers, so that "all on one line" is exact.
+  // n times the central moments. Those of u and v are integers, so the test for "all on one line" is exact.
   const VF uu = hn::NegMulAdd(s.u, s.u, hn::Mul(s.n, s.uu)), vv = hn::NegMulAdd(s.v, s.v, hn::Mul(s.n, s.vv)),
            uv = hn::NegMulAdd(s.u, s.v, hn::Mul(s.n, s.uv)), uq = hn::NegMulAdd(s.u, s.q, hn::Mul(s.n, s.uq)),
            vq = hn::NegMulAdd(s.v, s.q, hn::Mul(s.n, s.vq));
@@ -69,7 +69,7 @@ HWY_INLINE Vec3 normal_of_fit(const PlaneFitSums& s, const Intrinsics& camera, i
            b = hn::Mul(hn::NegMulAdd(uq, uv, hn::Mul(vq, uu)), inverse);
   const VF c =
       hn::Mul(hn::NegMulAdd(a, s.u, hn::NegMulAdd(b, s.v, s.q)), reciprocal(hn::Max(s.n, set(1.0f))));
-  // 1/z = a'x + b'y + c' over the rays x, y; (a', b', c') times the centre's depth:
+  // 1/z = a'x + b'y + c' over the rays x, y. `plane` is (a', b', c') times the centre's depth.
   const VF cols = hn::Add(hn::Iota(df, 0.0f), set(col - camera.cx)), rows = set(row - camera.cy);
   const Vec3 plane{hn::Mul(a, set(camera.fx)), hn::Mul(b, set(camera.fy)),
                    hn::NegMulAdd(a, cols, hn::NegMulAdd(b, rows, hn::Add(set(1.0f), c)))};

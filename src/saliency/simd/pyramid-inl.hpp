@@ -1,4 +1,4 @@
-// The depth of each level (SPEC 1.2), compiled once for each instruction set.
+// The depth of each level, sections 1.1 and 1.2; compiled once for each instruction set.
 #if defined(SACCADE_SALIENCY_PYRAMID_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef SACCADE_SALIENCY_PYRAMID_INL
 #undef SACCADE_SALIENCY_PYRAMID_INL
@@ -47,14 +47,14 @@ DepthRange load_rows(const cv::Mat1f& depth_mm, LevelPlanes& level, int begin, i
 /// Position i of n, reflected at the ends without repeating them; n >= 3, i beyond by at most 2.
 inline int reflect(int i, int n) { return i < 0 ? -i : i < n ? i : 2 * (n - 1) - i; }
 
-/// The rows of a window of the binomial and their weights.
+/// The five rows under the binomial filter and their weights.
 struct BinomialRows {
   const float* rows[5];
   static constexpr double kWeights[5] = {1, 4, 6, 4, 1};
 };
 
-/// Vertical half of the filter: sums of weighted depths and of weights, even and odd columns apart. All sums
-/// are exact in double, so that the order of summation does not matter.
+/// Vertical half of the filter: sums of weighted depths and of weights, with even and odd columns separated.
+/// All sums are exact in double, so the order of summation does not matter.
 HWY_INLINE void filter_columns(const BinomialRows& window, int width, RowScratch& scratch) {
   double* even_depth = scratch.halving[0].data();
   double* odd_depth = scratch.halving[1].data();
@@ -79,10 +79,10 @@ HWY_INLINE void filter_columns(const BinomialRows& window, int width, RowScratch
   }
 }
 
-/// Column c of a row that is split in even and odd ones.
+/// Column c of a row that is stored as even and odd columns.
 inline double& split_column(double* even, double* odd, int c) { return c & 1 ? odd[c >> 1] : even[c >> 1]; }
 
-/// Puts the reflected columns -2, -1, width and width + 1 beside such a row.
+/// Writes the reflected columns -2, -1, width and width + 1 of such a row.
 inline void reflect_ends(double* even, double* odd, int width) {
   const int beyond[] = {-2, -1, width, width + 1};
   for (const int c : beyond) split_column(even, odd, c) = split_column(even, odd, reflect(c, width));

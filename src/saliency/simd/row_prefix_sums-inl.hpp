@@ -1,4 +1,4 @@
-// Sums of points as RowPrefixSums holds them, compiled once for each instruction set.
+// Entries of RowPrefixSums; compiled once for each instruction set.
 #if defined(SACCADE_SALIENCY_ROW_PREFIX_SUMS_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef SACCADE_SALIENCY_ROW_PREFIX_SUMS_INL
 #undef SACCADE_SALIENCY_ROW_PREFIX_SUMS_INL
@@ -15,21 +15,21 @@ HWY_BEFORE_NAMESPACE();
 namespace saccade {
 namespace HWY_NAMESPACE {
 
-/// Some numbers of a record together.
+/// A sum over kNumbers consecutive numbers of entries.
 template <int kNumbers>
 class PartSum {
  public:
   HWY_INLINE PartSum() {
     for (auto& part : parts_) part = hn::Zero(kTag);
   }
-  HWY_INLINE void add(const std::int32_t* record) {
-    for (int i = 0; i < kParts; ++i) parts_[i] = hn::Add(parts_[i], hn::Load(kTag, record + i * kPartLanes));
+  HWY_INLINE void add(const std::int32_t* entry) {
+    for (int i = 0; i < kParts; ++i) parts_[i] = hn::Add(parts_[i], hn::Load(kTag, entry + i * kPartLanes));
   }
-  HWY_INLINE void subtract(const std::int32_t* record) {
-    for (int i = 0; i < kParts; ++i) parts_[i] = hn::Sub(parts_[i], hn::Load(kTag, record + i * kPartLanes));
+  HWY_INLINE void subtract(const std::int32_t* entry) {
+    for (int i = 0; i < kParts; ++i) parts_[i] = hn::Sub(parts_[i], hn::Load(kTag, entry + i * kPartLanes));
   }
-  HWY_INLINE void store(std::int32_t* record) const {
-    for (int i = 0; i < kParts; ++i) hn::Store(parts_[i], kTag, record + i * kPartLanes);
+  HWY_INLINE void store(std::int32_t* entry) const {
+    for (int i = 0; i < kParts; ++i) hn::Store(parts_[i], kTag, entry + i * kPartLanes);
   }
 
  private:
@@ -46,8 +46,8 @@ HWY_INLINE const std::int32_t* entry_at(const char* base, std::int32_t offset) {
   return reinterpret_cast<const std::int32_t*>(base + offset);
 }
 
-/// Fills the records of row r.
-HWY_INLINE void fill_prefix_row(const LevelPlanes& level, int r, int reach, RowPrefixSums& records) {
+/// Computes the entries of row r.
+HWY_INLINE void fill_prefix_row(const LevelPlanes& level, int r, int reach, RowPrefixSums& row_sums) {
   constexpr int kHalf = RowPrefixSums::kNumbers / 2;
   const VF unit = set(normal_units(reach));
   const VI depth_mask = hn::Set(di, level.packing.depth_mask()), row = hn::Set(di, r);
@@ -55,8 +55,8 @@ HWY_INLINE void fill_prefix_row(const LevelPlanes& level, int r, int reach, RowP
   alignas(64) std::int32_t first[kHalf * kLanes], second[kHalf * kLanes];
   PartSum<kHalf> first_sum, second_sum;
   const auto store = [&](int c) HWY_ATTR {
-    first_sum.store(records.at(r, c));
-    second_sum.store(records.at(r, c) + kHalf);
+    first_sum.store(row_sums.at(r, c));
+    second_sum.store(row_sums.at(r, c) + kHalf);
   };
   for (int c = -reach; c <= 0; ++c) store(c);
   const int end = round_up(level.width(), kLanes);

@@ -4,9 +4,9 @@ namespace saccade {
 
 RowPrefixSums::RowPrefixSums(cv::Size size, int reach, int rows) {
   constexpr int kLine = 64, kPage = 4096, kVector = 16;
-  const int margin = (reach + 1) / 2 * 2 * kBytes;  // whole lines
-  // Rows follow each other a page and 17 lines on, so that those of a window do not compete for the same
-  // places in the nearest cache.
+  const int margin = (reach + 1) / 2 * 2 * kBytes;  // a multiple of a line
+  // Successive rows are offset by 17 lines beyond a multiple of a page, so that the rows of a window do not
+  // compete for the same lines of the first-level cache.
   const int pitch =
       (margin + (size.width + kVector + reach + 1) * kBytes + kPage - 1) / kPage * kPage + 17 * kLine;
   memory_ = hwy::AllocateAligned<char>(static_cast<std::size_t>(pitch) * static_cast<std::size_t>(rows));

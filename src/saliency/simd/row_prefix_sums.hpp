@@ -29,8 +29,7 @@ class RowPrefixSums {
     return reinterpret_cast<std::int32_t*>(memory_.get() + offset(row, col));
   }
   const char* base() const { return memory_.get(); }
-  /// Bytes from base() to the entry at (row, col); col from -reach to the width, rounded up to vectors, +
-  /// reach.
+  /// Bytes from base() to the entry at (row, col); col from -reach to the width in whole vectors + reach.
   std::int32_t offset(int row, int col) const {
     return row_offset_[static_cast<std::size_t>(row)] + col * kBytes;
   }

@@ -1,5 +1,5 @@
-// The sums over one side of the candidate planes, Eq. (2), from runs of points in rows: what large windows
-// are summed by. Compiled once for each instruction set.
+// The inner loop for large windows: the sums over the points in front of the candidate planes, section 2.2,
+// from runs of points in rows. Compiled once for each instruction set.
 #if defined(SACCADE_SALIENCY_RUNS_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef SACCADE_SALIENCY_RUNS_INL
 #undef SACCADE_SALIENCY_RUNS_INL
@@ -21,8 +21,8 @@ HWY_BEFORE_NAMESPACE();
 namespace saccade {
 namespace HWY_NAMESPACE {
 
-/// Windows that reach so far are summed by runs, smaller ones point by point: where the two take equally
-/// long.
+/// Windows of at least this reach are summed by runs, smaller ones point by point: at this one both take the
+/// same time.
 constexpr int kRunsFromReach = kLanes >= 16 ? 27 : kLanes >= 8 ? 11 : 7;
 
 /// A part of a window, relative to its centre, of at most RowPrefixSums::kMostSide rows and columns.
@@ -30,7 +30,7 @@ struct Block {
   int first_row, rows, first_col, cols;
 };
 
-/// The centres of a vector: those that are points, and the planes through them.
+/// The centres of a vector: the lanes that are points, and the planes through them.
 struct BlockCentres {
   int lanes[kLanes], count = 0;
   alignas(64) float z0[kLanes], per_col[kPlanes][kLanes], per_row[kPlanes][kLanes];
@@ -47,12 +47,12 @@ struct BlockCentres {
   }
 };
 
-/// So many neighbours of a row are looked at together.
+/// Neighbours in a row whose sides are found together.
 constexpr int kChunk = 16;
 static_assert(kChunk % kLanes == 0);
 
-/// Of each centre of a vector, on which side of each plane the points of its block lie: bit i of
-/// rows[plane][v][lane] tells whether that in column i and row v is in front.
+/// For each centre of a vector, the side of each plane on which the points of its block lie: bit i of
+/// rows[plane][v][lane] is set if the point in column i and row v is in front.
 struct Sides {
   static_assert(std::endian::native == std::endian::little);
   alignas(64) std::int32_t rows[kPlanes][RowPrefixSums::kMostSide][kLanes] = {};
@@ -64,8 +64,8 @@ struct Sides {
   }
 };
 
-/// Eq. (2) for the points of a block around one centre, as sum_in_front() has it. Where there is no point the
-/// side does not matter.
+/// Eq. (2) for the pixels of a block around one centre, in the form of sum_in_front(). The side of a pixel
+/// without a point does not matter: it adds nothing to the prefix sums.
 HWY_INLINE void find_sides(const LevelPlanes& level, std::ptrdiff_t at, const Block& block,
                            const BlockCentres& centres, int lane, Sides& sides) {
   constexpr int kVectors = kChunk / kLanes;
@@ -96,15 +96,16 @@ HWY_INLINE void find_sides(const LevelPlanes& level, std::ptrdiff_t at, const Bl
   }
 }
 
-/// Where the records are: that of the first column and row v of the first lane's block is row_offset[v] bytes
-/// from base, those of the other lanes follow it.
+/// The entries of RowPrefixSums at a block: the one of the first column and row v of the first lane's block
+/// is row_offset[v] bytes from base, those of the other lanes follow.
 struct BlockPrefixSums {
   const char* base;
   std::int32_t row_offset[RowPrefixSums::kMostSide];
 
-  BlockPrefixSums(const RowPrefixSums& records, const Block& block, int row, int col) : base(records.base()) {
+  BlockPrefixSums(const RowPrefixSums& row_sums, const Block& block, int row, int col)
+      : base(row_sums.base()) {
     for (int v = 0; v < block.rows; ++v)
-      row_offset[v] = records.offset(row + block.first_row + v, col + block.first_col);
+      row_offset[v] = row_sums.offset(row + block.first_row + v, col + block.first_col);
   }
   HWY_INLINE VI row_offsets(int v) const {
     const VI lanes = hn::Mul(hn::Iota(di, 0), hn::Set(di, RowPrefixSums::kBytes));
@@ -112,7 +113,7 @@ struct BlockPrefixSums {
   }
 };
 
-/// How far the record after n columns is from that of the first; `power` = 2^n.
+/// Bytes from the entry of a column to the entry n columns on; `power` = 2^n.
 HWY_INLINE VI entry_offset(VI power) {
   constexpr int kMantissaBits = 23, kBias = 127, kSize = std::countr_zero(unsigned{RowPrefixSums::kBytes});
   // n is the exponent of the power as a float, of which 2^31 has the sign set.
@@ -122,9 +123,9 @@ HWY_INLINE VI entry_offset(VI power) {
 
 using RunEnds = std::int32_t[kPlanes][RowPrefixSums::kMostSide][kLanes];
 
-/// Takes the run of ones that each row begins with out of `sides`, and puts into `ends` the offset of the
-/// record behind it. Where the points in front are at the end of the rows the two sides are exchanged first.
-HWY_INLINE void take_first_runs(const BlockPrefixSums& records, const Block& block,
+/// Removes the run of ones at the beginning of each row from `sides` and writes the offset of the entry after
+/// it to `ends`. Where the points in front are at the end of the rows, it exchanges the two sides first.
+HWY_INLINE void take_first_runs(const BlockPrefixSums& entries, const Block& block,
                                 const BlockCentres& centres, Sides& sides, RunEnds& ends) {
   const VI one = hn::Set(di, 1);
   const VI all = hn::Set(di, static_cast<std::int32_t>((1u << block.cols) - 1));
@@ -134,30 +135,30 @@ HWY_INLINE void take_first_runs(const BlockPrefixSums& records, const Block& blo
     for (int v = 0; v < block.rows; ++v) {
       const VI x = hn::And(hn::Xor(hn::Load(di, sides.rows[i][v]), flip), all), next = hn::Add(x, one);
       hn::Store(hn::And(x, next), di, sides.rows[i][v]);
-      hn::Store(hn::Add(entry_offset(hn::AndNot(x, next)), records.row_offsets(v)), di, ends[i][v]);
+      hn::Store(hn::Add(entry_offset(hn::AndNot(x, next)), entries.row_offsets(v)), di, ends[i][v]);
     }
   }
 }
 
 using BlockSums = std::int32_t[kLanes][kPlanes][RowPrefixSums::kNumbers];
 
-/// Starts the sums with the runs that rows begin with.
-HWY_INLINE void add_first_runs(const BlockPrefixSums& records, const Block& block,
+/// Sets the sums to those of the runs at the beginning of rows.
+HWY_INLINE void add_first_runs(const BlockPrefixSums& entries, const Block& block,
                                const BlockCentres& centres, const RunEnds& ends, BlockSums& sums) {
   for (int n = 0; n < centres.count; ++n) {
     const int lane = centres.lanes[n];
     EntrySum before;
     for (int v = 0; v < block.rows; ++v)
-      before.subtract(entry_at(records.base, records.row_offset[v] + lane * RowPrefixSums::kBytes));
+      before.subtract(entry_at(entries.base, entries.row_offset[v] + lane * RowPrefixSums::kBytes));
     EntrySum sum[kPlanes] = {before, before, before};
     for (int v = 0; v < block.rows; ++v)
-      for (int i = 0; i < kPlanes; ++i) sum[i].add(entry_at(records.base, ends[i][v][lane]));
+      for (int i = 0; i < kPlanes; ++i) sum[i].add(entry_at(entries.base, ends[i][v][lane]));
     for (int i = 0; i < kPlanes; ++i) sum[i].store(sums[lane][i]);
   }
 }
 
 /// Runs of points, each with the sum (of BlockSums) that it belongs to. They are listed first and added
-/// later, because their number in a row is what the processor cannot predict.
+/// later, because the processor cannot predict their number in a row.
 class RunList {
  public:
   HWY_INLINE bool full() const { return size_ > kMost; }
@@ -169,13 +170,13 @@ class RunList {
     size_ += pack.size();
   }
   /// Adds the runs to their sums and empties the list.
-  HWY_INLINE void add_to(BlockSums& sums, const char* records) {
+  HWY_INLINE void add_to(BlockSums& sums, const char* base) {
     for (std::size_t i = 0; i < size_; ++i) {
       std::int32_t* const out = sums[0][0] + sums_[i];
       EntrySum sum;
       sum.add(out);
-      sum.add(entry_at(records, ends_[i]));
-      sum.subtract(entry_at(records, begins_[i]));
+      sum.add(entry_at(base, ends_[i]));
+      sum.subtract(entry_at(base, begins_[i]));
       sum.store(out);
     }
     size_ = 0;
@@ -187,9 +188,9 @@ class RunList {
   std::int32_t begins_[kMost + 2 * kLanes], ends_[kMost + 2 * kLanes], sums_[kMost + 2 * kLanes];
 };
 
-/// Adds the runs that take_first_runs() has left: few for the planes across the surface, many for that along
-/// it, which noise splits.
-HWY_INLINE void add_other_runs(const BlockPrefixSums& records, const Block& block, const Sides& sides,
+/// Adds the runs that take_first_runs() has left: few for the planes across the surface, many for the plane
+/// along it, where noise decides the side.
+HWY_INLINE void add_other_runs(const BlockPrefixSums& entries, const Block& block, const Sides& sides,
                                BlockSums& sums) {
   RunList runs;
   const VI lanes = hn::Mul(hn::Iota(di, 0), hn::Set(di, kPlanes * RowPrefixSums::kNumbers));
@@ -199,27 +200,27 @@ HWY_INLINE void add_other_runs(const BlockPrefixSums& records, const Block& bloc
       VI rest = hn::Load(di, sides.rows[i][v]);
       auto some = hn::Ne(rest, hn::Zero(di));
       if (hn::AllFalse(di, some)) continue;
-      const VI row = records.row_offsets(v);
+      const VI row = entries.row_offsets(v);
       do {
         const VI begin = hn::And(rest, hn::Neg(rest));
         const VI carried = hn::Add(rest, begin);  // the first run becomes 0, the bit after it 1
         runs.push(hn::RebindMask(df, some), hn::Add(entry_offset(begin), row),
                   hn::Add(entry_offset(hn::AndNot(rest, carried)), row), sum);
-        if (runs.full()) runs.add_to(sums, records.base);
+        if (runs.full()) runs.add_to(sums, entries.base);
         rest = hn::And(rest, carried);
         some = hn::Ne(rest, hn::Zero(di));
       } while (!hn::AllFalse(di, some));
     }
   }
-  runs.add_to(sums, records.base);
+  runs.add_to(sums, entries.base);
 }
 
-/// Adds what a block around the centres at (row, col..) has to `sums`, in the units of the records; z0 is the
-/// centres' depth.
+/// Adds the sums of a block around the centres at (row, col..) to `sums`, in the units of RowPrefixSums; z0
+/// is the centres' depth.
 HWY_INLINE void add_block(const BlockSums& block_sums, const Block& block, int row, int col, VI z0,
                           HalfSums* sums) {
   const VI index = hn::Mul(hn::Iota(di, 0), hn::Set(di, kPlanes * RowPrefixSums::kNumbers));
-  // Sums of z times rows and columns fit into 32 bits only about the middle of the block.
+  // Sums of z times rows and columns fit 32 bits only if taken about the middle of the block.
   const int middle_row = block.first_row + block.rows / 2, middle_col = block.first_col + block.cols / 2;
   const VI rows = hn::Set(di, row + middle_row), cols = hn::Iota(di, col + middle_col);
   const auto real = [](VI v) HWY_ATTR { return hn::ConvertTo(df, v); };
@@ -239,13 +240,12 @@ HWY_INLINE void add_block(const BlockSums& block_sums, const Block& block, int r
   }
 }
 
-/// What sum_in_front() gives, or the other half of the window: which one is the same to the score.
+/// The sums of sum_in_front(), or those of the other half of the window, with the same score.
 ///
 /// A plane through the centre splits most rows of a window once, into a run of points in front and one
-/// behind. So the sums over a half need few additions a row, from records of running sums (RowPrefixSums),
-/// however long the row is; what is left to do for every point is the comparison that decides its side. The
-/// sums are exact.
-HWY_NOINLINE void sum_runs_in_front(const LevelPlanes& level, const RowPrefixSums& records, int row, int col,
+/// behind. So the sums over a half need a few differences of prefix sums a row, however long the row is; only
+/// the comparison that decides a point's side is done for every point. The sums are exact.
+HWY_NOINLINE void sum_runs_in_front(const LevelPlanes& level, const RowPrefixSums& row_sums, int row, int col,
                                     const Window& window, const Centres& centres, const Vec3* gamma,
                                     HalfSums* sums) {
   const std::ptrdiff_t at = level.at(row, col);
@@ -260,12 +260,12 @@ HWY_NOINLINE void sum_runs_in_front(const LevelPlanes& level, const RowPrefixSum
     for (int first_col = -window.reach; first_col <= window.reach; first_col += RowPrefixSums::kMostSide) {
       const Block block{first_row, std::min(RowPrefixSums::kMostSide, window.last_row + 1 - first_row),
                         first_col, std::min(RowPrefixSums::kMostSide, window.reach + 1 - first_col)};
-      const BlockPrefixSums block_records(records, block, row, col);
+      const BlockPrefixSums block_entries(row_sums, block, row, col);
       Sides sides;
       for (int n = 0; n < points.count; ++n) find_sides(level, at, block, points, points.lanes[n], sides);
-      take_first_runs(block_records, block, points, sides, ends);
-      add_first_runs(block_records, block, points, ends, block_sums);
-      add_other_runs(block_records, block, sides, block_sums);
+      take_first_runs(block_entries, block, points, sides, ends);
+      add_first_runs(block_entries, block, points, ends, block_sums);
+      add_other_runs(block_entries, block, sides, block_sums);
       add_block(block_sums, block, row, col, z0, sums);
     }
   const VF mm = set(1 / level.packing.units_per_mm);
@@ -275,7 +275,7 @@ HWY_NOINLINE void sum_runs_in_front(const LevelPlanes& level, const RowPrefixSum
     sums[i].z_rows = hn::Mul(sums[i].z_rows, mm);
     sums[i].z_cols = hn::Mul(sums[i].z_cols, mm);
     sums[i].normal = sums[i].normal * normal_unit;
-    // The centre itself lies behind each plane, hence in a half that was exchanged for the one in front.
+    // The centre counts as behind each plane, so a half that was exchanged for the one in front contains it.
     const MF exchanged = hn::Lt(hn::Load(df, points.per_col[i]), zero());
     const auto centre = [&](LevelPlanes::Plane plane)
                             HWY_ATTR { return hn::IfThenElseZero(exchanged, load(level.plane(plane) + at)); };

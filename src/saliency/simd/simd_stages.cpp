@@ -9,7 +9,7 @@
 
 #include "core/error.hpp"
 
-// Sets between those that a user can name, and those whose vectors have no size known to the compiler.
+// Skip targets that users cannot select, and scalable-vector targets.
 #define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
 #define HWY_COMPILE_ALL_ATTAINABLE
 #undef HWY_TARGET_INCLUDE
@@ -55,7 +55,7 @@ HWY_EXPORT(get_stages);
 
 struct InstructionSet {
   std::string_view name;
-  std::int64_t target;  // Highway's bit; 0 = the fallback that runs everywhere
+  std::int64_t target;  // Highway's bit; 0 = the scalar fallback
 };
 
 // From the lowest to the highest.
@@ -66,22 +66,23 @@ bool can_run(const InstructionSet& set) {
   return set.target == 0 || (set.target & HWY_TARGETS & hwy::SupportedTargets()) != 0;
 }
 
-// Its place in kSets; the highest that can run for "auto" and nothing.
+// Index in kSets of the set named `simd`, or for "auto" and "" of the highest that can run. Throws Error
+// (usage), which names the setting `who`.
 std::size_t highest_allowed(const std::string& simd, const std::string& who) {
   std::vector<std::string_view> runnable = {"auto"};
   std::size_t best = 0;
-  std::optional<std::size_t> asked;
+  std::optional<std::size_t> requested;
   for (std::size_t i = 0; i < kSets.size(); ++i) {
     if (!can_run(kSets[i])) continue;
     runnable.push_back(kSets[i].name);
     best = i;
-    if (kSets[i].name == simd) asked = i;
+    if (kSets[i].name == simd) requested = i;
   }
   if (simd.empty() || simd == "auto") return best;
-  if (!asked)
+  if (!requested)
     throw usage_error("this machine or build cannot run the instruction set", fmt::format("{}={}", who, simd),
                       fmt::format("try one of {}", fmt::join(runnable, ", ")));
-  return *asked;
+  return *requested;
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -15,6 +16,11 @@ namespace saccade {
 struct DepthRange {
   float largest_mm = 0;
   bool multiples_of_eighths = true;  ///< whether every depth is a multiple of 1/8 mm
+
+  void include(const DepthRange& other) {
+    largest_mm = std::max(largest_mm, other.largest_mm);
+    multiples_of_eighths = multiples_of_eighths && other.multiples_of_eighths;
+  }
 };
 
 /// The operator's parameters as symmetry_rows() needs them.
@@ -31,12 +37,12 @@ struct SimdStages {
   int lanes;              ///< floats in a vector
   int runs_from_reach;    ///< windows of at least this reach need RowScratch::row_sums
 
-  /// Depth of a frame (mm) into kDepth and kInverse of level 0. Values that are not above 0 and at most
-  /// 65535 mm count as no reading.
+  /// Depth of a frame (mm) into kDepth and kInverse of level 0. Values that are not above 0 and at most 65535
+  /// mm count as no reading.
   DepthRange (*load_rows)(const cv::Mat1f& depth_mm, LevelPlanes& level, int begin, int end);
 
-  /// The next level, section 1.2: kDepth and kInverse of `half` from kDepth of `full`, to the bit as
-  /// reference::halve().
+  /// The next level, section 1.2: kDepth and kInverse of `half` from kDepth of `full`, with the same bits as
+  /// reference::halve() has.
   void (*halve_rows)(const LevelPlanes& full, LevelPlanes& half, int begin, int end, RowScratch& scratch);
 
   /// Normals, section 1.3, and from them the operator's points: kUsableInverse and kPacked.

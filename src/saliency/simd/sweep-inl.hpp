@@ -1,5 +1,5 @@
-// The inner loop: splits the points of a window by the candidate planes and sums the halves in front, Eq.
-// (2). Compiled once for each instruction set.
+// The inner loop for small windows: splits the points of a window by the candidate planes and sums the halves
+// in front, section 2.2. Compiled once for each instruction set.
 #if defined(SACCADE_SALIENCY_SWEEP_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef SACCADE_SALIENCY_SWEEP_INL
 #undef SACCADE_SALIENCY_SWEEP_INL
@@ -17,13 +17,13 @@ HWY_BEFORE_NAMESPACE();
 namespace saccade {
 namespace HWY_NAMESPACE {
 
-/// The rows of a window, clipped at the border, and its reach in columns (which ends in the margins).
+/// The rows of a window, clipped at the border, and its reach in columns, where the margins replace clipping.
 struct Window {
   int first_row, last_row;  ///< relative to the centre
   int reach;
 };
 
-/// DI numbers as floats, to be broadcast from memory: distances from the centre of a window.
+/// Integers as floats, to be broadcast from memory: distances from the centre of a window.
 struct Numbers {
   static constexpr int kLargest = 64;
   float value[2 * kLargest + 1];
@@ -35,8 +35,8 @@ constexpr Numbers kNumbers;
 
 constexpr int kPlanes = 3;
 
-/// Whether there are registers for the sums of all three planes at once. Where not, each column is swept
-/// twice: for the positions, and with the selections of that sweep for the normals.
+/// Whether there are enough registers for the sums of all three planes at once. If not, each column is swept
+/// twice: first for the positions, then for the normals with the selections of the first sweep.
 #if HWY_TARGET <= HWY_AVX3 || HWY_ARCH_ARM_A64
 constexpr bool kSweepsOnce = true;
 #else
@@ -49,7 +49,7 @@ HWY_INLINE MF points_at(const LevelPlanes& level, int row, int col) {
   return hn::RebindMask(df, hn::Gt(packed, hn::Zero(di)));
 }
 
-/// Where the points of a level are, seen from a centre.
+/// The planes of a level at the centres of a vector.
 struct Points {
   const float *depth, *inverse, *packed, *normal_x, *normal_y, *normal_z;
   std::ptrdiff_t stride;
@@ -64,7 +64,7 @@ struct Points {
         stride(level.stride()) {}
 };
 
-/// A column of a window: its rows and where it is, relative to the centre.
+/// A column of a window, relative to the centre.
 struct Column {
   int first_row, last_row, col;
 };
@@ -72,8 +72,8 @@ struct Column {
 /// The three planes through a centre as the sweep needs them.
 struct SweepPlanes {
   VF z0;                ///< the centre's depth
-  VF per_col[kPlanes];  ///< -gamma.x/fx / gamma.ray: what a column adds to where the plane cuts the ray
-  VF per_row[kPlanes];  ///< -gamma.y/fy / gamma.ray: what a row adds
+  VF per_col[kPlanes];  ///< -gamma.x/fx / gamma.ray: the plane along columns, see sum_in_front()
+  VF per_row[kPlanes];  ///< -gamma.y/fy / gamma.ray: along rows
 
   SweepPlanes(const Vec3* gamma, const Centres& centres, VF depth) : z0(depth) {
     for (int i = 0; i < kPlanes; ++i) {
@@ -88,17 +88,17 @@ struct SweepPlanes {
   }
 };
 
-/// Of each plane, the sums over the points in front that grow with every point. `counted` is packed, and is
+/// For each plane, the sums over the points in front that every point adds to. `counted` is packed, and is
 /// unpacked before it overflows.
-struct RunningSums {
+struct FrontSums {
   VI counted[kPlanes];
   VF z_rows[kPlanes], x[kPlanes], y[kPlanes], z[kPlanes];
 };
 
-/// Adds the points of a column that lie in front of each plane: their packed count and depth, z_rows and, if
-/// kSweepsOnce, their normals; else their selections are stored.
+/// Adds the points of a column that lie in front of each plane: packed count and depth, z_rows and, if
+/// kSweepsOnce, normals; otherwise stores their selections.
 HWY_INLINE void sweep_positions(const Points& points, const Column& column, const SweepPlanes& planes,
-                                RunningSums& sums, Selection* selections) {
+                                FrontSums& sums, Selection* selections) {
   VF per_row[kPlanes], at_col[kPlanes];
   for (int i = 0; i < kPlanes; ++i) {
     at_col[i] = hn::Mul(planes.per_col[i], set(kNumbers.value[column.col + kNumbers.kLargest]));
@@ -118,7 +118,8 @@ HWY_INLINE void sweep_positions(const Points& points, const Column& column, cons
     }
     const VF dr = set(*row), z_times_row = hn::Mul(z, dr);
     for (int i = 0; i < kPlanes; ++i) {
-      const MF m = hn::Gt(q, hn::MulAdd(per_row[i], dr, at_col[i]));  // Eq. (2)
+      // Eq. (2)
+      const MF m = hn::Gt(q, hn::MulAdd(per_row[i], dr, at_col[i]));
       const Selection front = select(m);
       sums.counted[i] = add_where(m, p, sums.counted[i]);
       sums.z_rows[i] = add_product_where(front, z, dr, z_times_row, sums.z_rows[i]);
@@ -136,7 +137,7 @@ HWY_INLINE void sweep_positions(const Points& points, const Column& column, cons
 
 /// Adds the normals of the selected points of a column.
 HWY_INLINE void sweep_normals(const Points& points, const Column& column, const Selection* selections,
-                              RunningSums& sums) {
+                              FrontSums& sums) {
   std::ptrdiff_t j = column.first_row * points.stride + column.col;
   for (int v = column.first_row; v <= column.last_row; ++v, j += points.stride, selections += kPlanes) {
     Selection front[kPlanes];
@@ -150,20 +151,20 @@ HWY_INLINE void sweep_normals(const Points& points, const Column& column, const 
   }
 }
 
-/// The sums over the points in front of the planes `gamma`, for the centres at `at` and following.
+/// The sums over the points in front of the planes `gamma`, for the centres at `at` and the following pixels.
 ///
 /// A point is in front if d = gamma.(p_j - p) > 0. With p = z*ray, and divided by z_j > 0, this is
 ///   gamma.ray * (z_j - z)/z_j + gamma.x/fx * dc + gamma.y/fy * dr > 0,
-/// in which nothing cancels. It is divided by gamma.ray, so that one comparison with a linear function of row
-/// and column decides; where gamma.ray < 0 that exchanges the halves, which is the same to the score. 1/z_j
-/// is NaN where there is no point, so that the comparison fails.
+/// in which nothing cancels. Division by gamma.ray leaves one comparison with a linear function of row and
+/// column; if gamma.ray < 0 it exchanges the halves, which does not change the score. 1/z_j is NaN where
+/// there is no point, so that the comparison fails.
 ///
-/// Differs from Eq. (2): a point exactly on the plane, d = 0, comes to the half that is left of the window
-/// once the one in front is taken away. With axes from measured normals that is chance; where it is not, on a
-/// frontal plane, all scores are 0.
+/// Differs from Eq. (2): a point exactly on the plane, d = 0, falls into the half behind, which is the window
+/// minus the half in front. With axes from measured normals such points are chance; on a frontal plane, where
+/// they are not, all scores are 0.
 ///
-/// Columns are the outer loop: with Z_i the sum of z of a run of columns up to the i-th, of n,
-/// sum(i * z) = n * Z_n - sum(Z_i), i = 1..n, so that z times the columns costs an addition a column.
+/// Columns are the outer loop. With Z_i the sum of z over columns 0..i of n, the sum of i * z is n * Z_(n-1)
+/// minus the sum of all Z_i, so that z times the columns costs one addition a column.
 HWY_INLINE void sum_in_front(const LevelPlanes& level, std::ptrdiff_t at, const Window& window,
                              const Centres& centres, const Vec3* gamma, HalfSums* sums) {
   const Points points(level, at);
@@ -171,26 +172,26 @@ HWY_INLINE void sum_in_front(const LevelPlanes& level, std::ptrdiff_t at, const 
   const DepthPacking& packing = level.packing;
   const VI depth_mask = hn::Set(di, packing.depth_mask());
   const VI z0 = hn::And(hn::BitCast(di, load(points.packed)), depth_mask);
-  RunningSums running;
+  FrontSums front_sums;
   for (int i = 0; i < kPlanes; ++i) {
     sums[i].count = sums[i].z = sums[i].z_cols = zero();
-    running.z_rows[i] = running.x[i] = running.y[i] = running.z[i] = zero();
+    front_sums.z_rows[i] = front_sums.x[i] = front_sums.y[i] = front_sums.z[i] = zero();
   }
   Selection selections[kSweepsOnce ? 1 : kPlanes * (2 * kNumbers.kLargest - 1)];
   for (int begin = -window.reach; begin <= window.reach; begin += packing.columns) {
     const int end = std::min(begin + packing.columns, window.reach + 1);
     VI sum_of_sums[kPlanes];
-    for (int i = 0; i < kPlanes; ++i) running.counted[i] = sum_of_sums[i] = hn::Zero(di);
+    for (int i = 0; i < kPlanes; ++i) front_sums.counted[i] = sum_of_sums[i] = hn::Zero(di);
     for (int dc = begin; dc < end; ++dc) {
       const Column column{window.first_row, window.last_row, dc};
-      sweep_positions(points, column, planes, running, selections);
-      if constexpr (!kSweepsOnce) sweep_normals(points, column, selections, running);
+      sweep_positions(points, column, planes, front_sums, selections);
+      if constexpr (!kSweepsOnce) sweep_normals(points, column, selections, front_sums);
       for (int i = 0; i < kPlanes; ++i)
-        sum_of_sums[i] = hn::Add(sum_of_sums[i], hn::And(running.counted[i], depth_mask));
+        sum_of_sums[i] = hn::Add(sum_of_sums[i], hn::And(front_sums.counted[i], depth_mask));
     }
     for (int i = 0; i < kPlanes; ++i) {
-      const VI z = hn::And(running.counted[i], depth_mask);
-      const VI count = shift_right(running.counted[i], packing.depth_bits);
+      const VI z = hn::And(front_sums.counted[i], depth_mask);
+      const VI count = shift_right(front_sums.counted[i], packing.depth_bits);
       const VI from_begin = hn::Sub(hn::Mul(z, hn::Set(di, end - begin)), sum_of_sums[i]);
       sums[i].count = hn::Add(sums[i].count, hn::ConvertTo(df, count));
       sums[i].z = hn::Add(sums[i].z, hn::ConvertTo(df, hn::Sub(z, hn::Mul(count, z0))));
@@ -203,8 +204,8 @@ HWY_INLINE void sum_in_front(const LevelPlanes& level, std::ptrdiff_t at, const 
   for (int i = 0; i < kPlanes; ++i) {
     sums[i].z = hn::Mul(sums[i].z, mm);
     sums[i].z_cols = hn::Mul(sums[i].z_cols, mm);
-    sums[i].z_rows = running.z_rows[i];
-    sums[i].normal = {running.x[i], running.y[i], running.z[i]};
+    sums[i].z_rows = front_sums.z_rows[i];
+    sums[i].normal = {front_sums.x[i], front_sums.y[i], front_sums.z[i]};
   }
 }
 

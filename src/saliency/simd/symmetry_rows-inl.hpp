@@ -1,4 +1,4 @@
-// The operator at the pixels of a row (section 2 of SPEC), compiled once for each instruction set.
+// The operator at the pixels of a row, section 2; compiled once for each instruction set.
 #if defined(SACCADE_SALIENCY_SYMMETRY_ROWS_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef SACCADE_SALIENCY_SYMMETRY_ROWS_INL
 #undef SACCADE_SALIENCY_SYMMETRY_ROWS_INL
@@ -22,7 +22,7 @@ HWY_BEFORE_NAMESPACE();
 namespace saccade {
 namespace HWY_NAMESPACE {
 
-/// The pixels of one vector as centres; lambda as SPEC 2.4 has it.
+/// The pixels of one vector as centres, with lambda of section 2.4.
 HWY_INLINE Centres centres_at(const LevelPlanes& level, const WindowParams& params, int row, int col) {
   const Intrinsics& camera = level.camera;
   const VF cols = hn::Add(hn::Iota(df, 0.0f), set(col - camera.cx));
@@ -34,7 +34,7 @@ HWY_INLINE Centres centres_at(const LevelPlanes& level, const WindowParams& para
   return centres;
 }
 
-/// Section 2 of SPEC at one vector of pixels: the best of the three planes, Eqs. (3, 13).
+/// The operator at one vector of pixels: the best of the three planes, Eq. (3), Eq. (13).
 HWY_INLINE VF symmetry_at(const LevelPlanes& level, const WindowParams& params, const Window& window, int row,
                           int col, RowStatistics& statistics, const RowPrefixSums& row_sums) {
   using S = RowStatistics;
@@ -60,7 +60,7 @@ HWY_INLINE VF symmetry_at(const LevelPlanes& level, const WindowParams& params, 
   return hn::IfThenElseZero(points_at(level, row, col), best);
 }
 
-/// Covers the points of row r with few vectors: each begins at the first point that no other holds.
+/// Covers the points of row r with few vectors: each begins at the first point that no earlier one covers.
 HWY_INLINE void find_groups(const LevelPlanes& level, int r, std::vector<int>& groups) {
   groups.clear();
   for (int c = 0; c < level.width(); c += kLanes) {
@@ -71,20 +71,20 @@ HWY_INLINE void find_groups(const LevelPlanes& level, int r, std::vector<int>& g
   }
 }
 
-/// Everything of row r that is needed before single points are looked at.
+/// The statistics of row r. `first`: the vertical sums of row r - 1 are not there.
 HWY_INLINE void prepare_row(const LevelPlanes& level, int r, int reach, bool first, RowStatistics& statistics,
                             RowScratch& scratch) {
   slide_vertical_sums(level, r, reach, first, scratch);
   find_groups(level, r, statistics.groups);
   if (statistics.groups.empty()) return;
-  sum_up_columns(level, reach, scratch);
+  prefix_vertical_sums(level, reach, scratch);
   window_statistics(level, r, reach, scratch.window_sums, statistics);
   gaussian_image_axes(statistics);
 }
 
-/// SimdStages::symmetry_rows. A few rows are prepared at a time, as many as the caches hold the statistics
-/// of; then it goes column by column, so that the points of a window stay in the nearest cache for the
-/// windows below.
+/// SimdStages::symmetry_rows. Prepares a few rows at a time, as many as the caches hold the statistics of;
+/// then goes through them column by column, so that the points of a window are still in the first-level cache
+/// for the windows below it.
 void symmetry_rows(LevelPlanes& level, const WindowParams& params, int begin, int end, RowScratch& scratch) {
   const DenormalsAreZero denormals;
   const int reach = params.reach;

@@ -1,4 +1,4 @@
-// Small helpers of the kernels, compiled once for each instruction set.
+// Vector types and small functions of the stages, compiled once for each instruction set.
 #if defined(SACCADE_SALIENCY_VECTORS_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef SACCADE_SALIENCY_VECTORS_INL
 #undef SACCADE_SALIENCY_VECTORS_INL
@@ -18,21 +18,23 @@ namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
+// Highway's names: a tag d, its vectors V and masks M, of floats (F), doubles (D) and 32-bit integers (I).
+// DHF and DHI have as many lanes as a vector of doubles, half of DF's and DI's.
 using DF = hn::ScalableTag<float>;
-using VF = hn::Vec<DF>;
-using MF = hn::Mask<DF>;
 using DD = hn::ScalableTag<double>;
-using VD = hn::Vec<DD>;
-using DHF = hn::Rebind<float, DD>;  // as many floats as there are doubles in a vector
-using DHI = hn::Rebind<std::int32_t, DD>;
 using DI = hn::Rebind<std::int32_t, DF>;
+using DHF = hn::Rebind<float, DD>;
+using DHI = hn::Rebind<std::int32_t, DD>;
+using VF = hn::Vec<DF>;
+using VD = hn::Vec<DD>;
 using VI = hn::Vec<DI>;
+using MF = hn::Mask<DF>;
 
 constexpr DF df{};
 constexpr DD dd{};
+constexpr DI di{};
 constexpr DHF dhf{};
 constexpr DHI dhi{};
-constexpr DI di{};
 
 constexpr int kLanes = HWY_LANES(float), kDoubleLanes = HWY_LANES(double);
 
@@ -43,7 +45,7 @@ HWY_INLINE VF set(double x) { return hn::Set(df, static_cast<float>(x)); }
 HWY_INLINE VF zero() { return hn::Zero(df); }
 HWY_INLINE VF load(const float* p) { return hn::LoadU(df, p); }
 
-/// The whole number nearest to each lane, which must fit.
+/// The integer nearest to each lane; it must fit 32 bits.
 HWY_INLINE VI nearest(VF v) {
 #if HWY_TARGET <= HWY_AVX3
   return VI{_mm512_cvtps_epi32(v.raw)};
@@ -54,13 +56,13 @@ HWY_INLINE VI nearest(VF v) {
 #endif
 }
 
-/// The bits of v, which are those of a whole number without sign, moved down.
+/// v as unsigned integers, shifted right.
 HWY_INLINE VI shift_right(VI v, int bits) {
   constexpr hn::RebindToUnsigned<DI> tag;
   return hn::BitCast(di, hn::ShiftRightSame(hn::BitCast(tag, v), bits));
 }
 
-/// Three floats a pixel.
+/// A vector of three floats for each pixel.
 struct Vec3 {
   VF x, y, z;
 };
@@ -80,8 +82,8 @@ HWY_INLINE Vec3 operator-(const Vec3& a, const Vec3& b) {
 }
 HWY_INLINE Vec3 operator*(const Vec3& a, VF s) { return {hn::Mul(a.x, s), hn::Mul(a.y, s), hn::Mul(a.z, s)}; }
 
-// Newton steps that bring the machine's estimates to nearly full precision: they have 8 bits on NEON, 12 on
-// SSE and AVX2, 14 on AVX-512. The fallback without SIMD divides.
+// Newton steps that bring the processor's estimates to nearly full precision: estimates have 8 bits on NEON,
+// 12 on SSE and AVX2, 14 on AVX-512. The scalar fallback divides.
 #if HWY_TARGET == HWY_SCALAR || HWY_TARGET == HWY_EMU128
 constexpr int kNewtonSteps = 0;
 #elif HWY_TARGET <= HWY_AVX3
@@ -109,8 +111,8 @@ HWY_INLINE VF reciprocal_sqrt(VF x) {
   return y;
 }
 
-/// v, held in a register. Else compilers load a value anew for each of its uses, and loads that cross cache
-/// lines are what the inner loop has too many of.
+/// v, kept in a register. Compilers would otherwise reload a value for each use, and the inner loop is
+/// limited by loads that cross cache lines.
 HWY_INLINE VF in_register(VF v) {
 #if HWY_ARCH_X86 && HWY_TARGET != HWY_SCALAR
   asm("" : "+v"(v.raw));
@@ -134,8 +136,8 @@ HWY_INLINE unsigned bits_of(MF m) {
   return static_cast<unsigned>(bits);
 }
 
-/// Moves the lanes of a mask to the front of a vector; what follows them is anything.
-/// (Highway's Compress copies its table to the stack on AVX2, as g++ compiles it.)
+/// Moves the lanes of a mask to the front of a vector; the lanes after them are unspecified. (On AVX2 g++
+/// makes Highway's Compress copy its table to the stack.)
 #if HWY_TARGET <= HWY_AVX3 || HWY_TARGET == HWY_SCALAR
 class LanePacker {
  public:
@@ -147,35 +149,35 @@ class LanePacker {
   hn::Mask<DI> mask_;
 };
 #else
-/// The places of the ones in a byte, then anything.
-struct PlacesOfOnes {
+/// For each byte, the positions of its ones.
+struct BitPositions {
   std::uint8_t of[256][8];
-  constexpr PlacesOfOnes() : of() {
+  constexpr BitPositions() : of() {
     for (unsigned bits = 0; bits < 256; ++bits)
       for (unsigned bit = 0, n = 0; bit < 8; ++bit)
         if (bits >> bit & 1) of[bits][n++] = static_cast<std::uint8_t>(bit);
   }
 };
-inline constexpr PlacesOfOnes kPlacesOfOnes;
+inline constexpr BitPositions kBitPositions;
 
 class LanePacker {
  public:
   HWY_INLINE explicit LanePacker(MF m) {
     const unsigned bits = bits_of(m);
     size_ = static_cast<std::size_t>(std::popcount(bits));
-    constexpr hn::Rebind<std::uint8_t, DI> kBytes;
-    places_ = hn::PromoteTo(di, hn::LoadU(kBytes, kPlacesOfOnes.of[bits]));
+    constexpr hn::Rebind<std::uint8_t, DI> bytes;
+    positions_ = hn::PromoteTo(di, hn::LoadU(bytes, kBitPositions.of[bits]));
   }
   HWY_INLINE std::size_t size() const { return size_; }
-  HWY_INLINE VI operator()(VI v) const { return hn::TableLookupLanes(v, hn::IndicesFromVec(di, places_)); }
+  HWY_INLINE VI operator()(VI v) const { return hn::TableLookupLanes(v, hn::IndicesFromVec(di, positions_)); }
 
  private:
   std::size_t size_;
-  VI places_;
+  VI positions_;
 };
 #endif
 
-/// Which lanes' values enter a sum: a mask where sums can be masked, else 1 or 0 to be multiplied with.
+/// The lanes that enter a sum: a mask if the instruction set has masked sums, else factors 1 and 0.
 #if HWY_TARGET <= HWY_AVX3
 using Selection = MF;
 HWY_INLINE Selection select(MF m) { return m; }
@@ -185,7 +187,7 @@ HWY_INLINE VF add_where(Selection m, VF v, VF sum) {
 HWY_INLINE VI add_where(MF m, VI v, VI sum) {
   return VI{_mm512_mask_add_epi32(sum.raw, m.raw, sum.raw, v.raw)};
 }
-/// sum + a * b where m, else sum; ab = a * b may be used instead.
+/// sum + a * b where m, else sum. `ab` is a * b, for instruction sets without masked multiply-add.
 HWY_INLINE VF add_product_where(Selection m, VF a, VF b, VF, VF sum) {
   return VF{_mm512_mask3_fmadd_ps(a.raw, b.raw, sum.raw, m.raw)};
 }

@@ -1,4 +1,4 @@
-// Sums over the window of each pixel of a row, slid from row to row; compiled once for each instruction set.
+// Sums over the windows of a row, updated from row to row; compiled once for each instruction set.
 #if defined(SACCADE_SALIENCY_WINDOW_SUMS_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef SACCADE_SALIENCY_WINDOW_SUMS_INL
 #undef SACCADE_SALIENCY_WINDOW_SUMS_INL
@@ -17,15 +17,15 @@ HWY_BEFORE_NAMESPACE();
 namespace saccade {
 namespace HWY_NAMESPACE {
 
-/// Normals and their products are summed as so many whole units to 1, a power of 2: as many as 32 bits allow
-/// for a window's points.
+/// Normals and their products are summed as integers, in units of 1/normal_units(): the largest power of 2
+/// for which a window's sum fits 32 bits.
 inline float normal_units(int reach) {
   const unsigned points = static_cast<unsigned>((2 * reach + 1) * (2 * reach + 1));
   return static_cast<float>(1 << (31 - std::bit_width(points)));
 }
 
-/// Adds (sign = 1) or takes away (-1) the pixels at `at`, which lie `dr` rows from the centre, to the sums of
-/// their columns.
+/// Adds (sign = 1) the pixels at `at`, `dr` rows below the centre, to the sums of their columns, or subtracts
+/// them (-1).
 HWY_INLINE void add_pixels(const LevelPlanes& level, std::ptrdiff_t at, int dr, int sign, VF unit,
                            VI depth_mask, VI (&sums)[VerticalSums::kSums]) {
   using S = VerticalSums;
@@ -49,7 +49,7 @@ HWY_INLINE void add_pixels(const LevelPlanes& level, std::ptrdiff_t at, int dr, 
   add(S::kDepthRows, hn::Mul(hn::And(packed, depth_mask), hn::Set(di, dr)));
 }
 
-/// The sums of each column of the window of row r; `first` if those of row r - 1 are not there.
+/// VerticalSums of row r; from those of row r - 1 unless `first`.
 HWY_INLINE void slide_vertical_sums(const LevelPlanes& level, int r, int reach, bool first,
                                     RowScratch& scratch) {
   const VF unit = set(normal_units(reach));
@@ -66,7 +66,7 @@ HWY_INLINE void slide_vertical_sums(const LevelPlanes& level, int r, int reach, 
     } else {
       for (std::size_t i = 0; i < VerticalSums::kSums; ++i)
         sums[i] = hn::Load(di, scratch.vertical_sums.sums[i].data() + c);
-      // Each row is now one further up.
+      // The centre moved down, so each row is one further up.
       sums[VerticalSums::kDepthRows] =
           hn::Sub(sums[VerticalSums::kDepthRows], hn::And(sums[VerticalSums::kPacked], depth_mask));
       add_row(r - reach - 1, -1);
@@ -77,7 +77,7 @@ HWY_INLINE void slide_vertical_sums(const LevelPlanes& level, int r, int reach, 
   }
 }
 
-/// The sums of the lanes up to each, on top of `before`, which becomes their total.
+/// `before` plus the prefix sums of the lanes; adds the sum of all lanes to `before`.
 template <class Tag>
 HWY_INLINE hn::Vec<Tag> prefix_sum(Tag tag, hn::Vec<Tag> v, hn::Vec<Tag>& before) {
   constexpr hn::RebindToSigned<Tag> index_tag;
@@ -94,8 +94,8 @@ HWY_INLINE hn::Vec<Tag> prefix_sum(Tag tag, hn::Vec<Tag> v, hn::Vec<Tag>& before
   return total;
 }
 
-/// From the sums of the columns their running totals, up to where the last window ends.
-HWY_INLINE void sum_up_columns(const LevelPlanes& level, int reach, RowScratch& scratch) {
+/// WindowPrefixSums of VerticalSums, up to the last column of the last window.
+HWY_INLINE void prefix_vertical_sums(const LevelPlanes& level, int reach, RowScratch& scratch) {
   using S = VerticalSums;
   using T = WindowPrefixSums;
   const VI depth_mask = hn::Set(di, level.packing.depth_mask());

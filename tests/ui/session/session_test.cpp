@@ -131,7 +131,7 @@ TEST_F(SessionTest, ComparesTwoSettingsOnOneFrame) {
   request.a.kernel = 7;
   request.b = Settings{};
   request.b->model = "centre";
-  request.wants.normals = true;
+  request.outputs.normals = true;
   session->set_compute_request(request);
   ASSERT_TRUE(wait_for([&] { return session->latest() && session->latest()->compared; }));
   const ViewResultPtr result = session->latest();
