@@ -17,6 +17,7 @@ namespace saccade {
 struct RequestedOutputs {
   bool levels = false;   ///< the map of every level
   bool normals = false;  ///< the normals of level 0
+  bool operator==(const RequestedOutputs&) const = default;
 };
 
 /// What the operator computes from one frame of H x W pixels.

@@ -11,7 +11,7 @@
 
 namespace saccade {
 
-/// How the points look.
+/// The look of the points.
 struct CloudShading {
   bool lit = true;            ///< points with a normal are darker the more they turn away from the eye
   double point_mm_per_m = 2;  ///< side of a point for each metre of its depth; a pixel covers 1000 / fx
@@ -29,7 +29,7 @@ class CloudRenderer {
   CloudRenderer(const CloudRenderer&) = delete;
   CloudRenderer& operator=(const CloudRenderer&) = delete;
 
-  /// What is drawn from now on; copied to the graphics card.
+  /// Replaces the vertices; copied to the graphics card.
   void set_points(std::span<const CloudVertex> vertices) { points_.set(vertices); }
   void set_lines(std::span<const CloudVertex> vertices) { lines_.set(vertices); }  ///< two a line
 

@@ -13,14 +13,15 @@ TextureId GlCloudPicture::render(const CloudFrame& frame, const CloudStyle& styl
     drawn_.reset();
   }
   const Drawn drawing{camera, size, light_theme};
-  renewed_ = drawn_ != drawing;
-  if (!renewed_) return texture_;
-  CloudShading look;
-  look.lit = style.lit;
-  look.point_mm_per_m = static_cast<double>(style.point_size) * 1000 / frame.frame.intrinsics.fx;
-  if (light_theme) look.background = {0.86F, 0.87F, 0.89F};
+  if (drawn_ == drawing) return texture_;
+  CloudShading shading;
+  shading.lit = style.lit;
+  shading.point_mm_per_m = static_cast<double>(style.point_size) * 1000 / frame.frame.intrinsics.fx;
+  if (light_theme) shading.background = {0.86F, 0.87F, 0.89F};
   drawn_ = drawing;
-  return texture_ = renderer_.draw(camera, size, look);
+  texture_ = renderer_.draw(camera, size, shading);
+  renewed_.push_back(texture_);
+  return texture_;
 }
 
 void GlCloudPicture::build(const CloudFrame& frame, const CloudStyle& style) {

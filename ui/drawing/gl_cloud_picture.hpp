@@ -13,9 +13,11 @@ namespace saccade {
 /// when the frame or a style has changed. All calls, also the destructor's, with the same context current.
 class GlCloudPicture final : public CloudPicture {
  public:
+  /// Adds its texture to `renewed` whenever that is drawn.
+  explicit GlCloudPicture(std::vector<TextureId>& renewed) : renewed_(renewed) {}
+
   TextureId render(const CloudFrame& frame, const CloudStyle& style, const OrbitCamera& camera, cv::Size size,
                    bool light_theme) override;
-  [[nodiscard]] bool renewed() const override { return renewed_; }
 
  private:
   struct Drawn {  // besides what was built
@@ -32,11 +34,11 @@ class GlCloudPicture final : public CloudPicture {
   };
   void build(const CloudFrame& frame, const CloudStyle& style);
 
+  std::vector<TextureId>& renewed_;
   CloudRenderer renderer_;
   std::optional<Built> built_;
   std::optional<Drawn> drawn_;  // none: what was built is not drawn yet
   TextureId texture_ = 0;
-  bool renewed_ = false;
   std::vector<CloudVertex> points_, lines_;
 };
 

@@ -31,14 +31,15 @@ void GlTexture::upload(const cv::Mat3b& picture) {
     glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, size_.width, size_.height, GL_BGRA, GL_UNSIGNED_INT_8_8_8_8_REV,
                     pixels_.data);
   }
+  renewed_.push_back(id());
 }
 
-bool GlTexture::set_sharp(bool sharp) {
-  if (name_ == 0 || sharp == sharp_) return false;
+void GlTexture::set_sharp(bool sharp) {
+  if (name_ == 0 || sharp == sharp_) return;
   sharp_ = sharp;
   glBindTexture(GL_TEXTURE_2D, name_);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, sharp ? GL_NEAREST : GL_LINEAR);
-  return true;
+  renewed_.push_back(id());
 }
 
 }  // namespace saccade

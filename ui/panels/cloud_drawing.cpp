@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::array<const char*, 3> kColourNames = {"image", "depth", "saliency"};
 
-// Puts the next item on the same line if there is room for its text, else on a new one.
+// Puts the next item on the same line if there is room for its text, else on a new line.
 void continue_line(const char* text, float ems_beside_text) {
   ImGui::SameLine();
   const float needed = ImGui::CalcTextSize(text).x + ems_beside_text * ImGui::GetFontSize();
@@ -35,22 +35,22 @@ void draw_choices(CloudStyle& style, CloudPanelState& state) {
   int colour = static_cast<int>(style.colour);
   if (ImGui::Combo("##colour", &colour, kColourNames.data(), static_cast<int>(kColourNames.size())))
     style.colour = static_cast<CloudColour>(colour);
-  explain("What gives the points their colour.");
-  checkbox("Lit", style.lit, "Points that turn away from you are darker.");
-  checkbox("Normals", style.needles, "Lines along the normals of the surface.");
+  explain("Colour of the points.");
+  checkbox("Lit", style.lit, "Shades the points: surfaces that turn away from the eye are darker.");
+  checkbox("Normals", style.needles, "Lines along the surface normals.");
   checkbox("Fixations", style.fixations, "Numbered markers with their positions in mm.");
   continue_line("", 7.5F);
   ImGui::SetNextItemWidth(7 * em);
   ImGui::SliderFloat("##size", &style.point_size, kSmallestPoint, kLargestPoint, "Points ×%.1f",
                      ImGuiSliderFlags_AlwaysClamp);
-  explain("The size of the points; 1 = as much as their pixel covers.");
+  explain("Size of the points; 1 = the size of a pixel at their depth.");
   continue_line("Reset view", 1);
   if (ImGui::Button("Reset view")) state.placed = false;
-  explain("Back to the sensor's own view; also by a double click.");
+  explain("Back to the sensor's own view; a double click does the same.");
   ImGui::Unindent(em / 2);
 }
 
-// Takes the pointer over the canvas, which is the last item.
+// Applies the pointer to the last item, which shows the cloud.
 void turn_by_pointer(CloudPanelState& state, ImVec2 corner, cv::Size viewport) {
   const ImGuiIO& io = ImGui::GetIO();
   const cv::Point2d drag(static_cast<double>(io.MouseDelta.x), static_cast<double>(io.MouseDelta.y));
@@ -74,7 +74,7 @@ struct Box {
   }
 };
 
-// A number in a disc, and beside it the position if that hides no other text.
+// A number in a disc, with the position beside it if that covers no other text.
 void draw_marker(ImDrawList& list, ImVec2 at, std::size_t rank, const cv::Point3f& position_mm,
                  std::vector<Box>& taken) {
   const float em = ImGui::GetFontSize(), radius = 0.75F * em;
@@ -108,7 +108,7 @@ void draw_fixations(const CloudPanelState& state, const std::vector<Fixation>& f
     cv::Point3f position_mm;
   };
   std::vector<Marker> markers;
-  std::vector<Box> taken;  // discs first: no text over them
+  std::vector<Box> taken;  // begins with the discs: no text over them
   const float radius = 0.75F * ImGui::GetFontSize();
   for (std::size_t i = 0; i < fixations.size(); ++i) {
     const cv::Point3f& p = fixations[i].position_mm;
@@ -135,7 +135,7 @@ void draw_cloud(CloudStyle& style, CloudPanelState& state, const Frame& frame, c
                 const std::function<ImTextureID(cv::Size)>& render) {
   draw_choices(style, state);
   constexpr ImGuiWindowFlags kFlags = ImGuiWindowFlags_NoScrollWithMouse | ImGuiWindowFlags_NoScrollbar;
-  if (ImGui::BeginChild("canvas", {0, 0}, false, kFlags)) {
+  if (ImGui::BeginChild("points", {0, 0}, false, kFlags)) {
     if (!state.placed) state.camera = camera_for_frame(frame);
     state.placed = true;
     const ImVec2 corner = ImGui::GetCursorScreenPos(), room = ImGui::GetContentRegionAvail();

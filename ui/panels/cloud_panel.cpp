@@ -13,10 +13,7 @@ void CloudPanel::draw(ViewContext& view) {
   const CloudFrame frame{view.result->frame(), computed.smooth, computed.result.maps.normals,
                          view.state.style, view.result->serial};
   draw_cloud(style, state_, view.result->frame(), computed.result.attention, [&](cv::Size size) {
-    const ImTextureID texture =
-        as_imgui(picture_->render(frame, style, state_.camera, size, view.state.theme == Theme::light));
-    if (picture_->renewed()) view.renewed.push_back(texture);
-    return texture;
+    return as_imgui(picture_->render(frame, style, state_.camera, size, view.state.theme == Theme::light));
   });
 }
 

@@ -15,7 +15,7 @@ namespace saccade {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr std::size_t kMostEntries = 500;  // of a folder that is looked through
+constexpr std::size_t kMostEntries = 500;  // of a folder, in the list
 
 void set_text(char* text, std::size_t size, const std::string& value) {
   std::strncpy(text, value.c_str(), size - 1);
@@ -116,7 +116,7 @@ void SettingsDialog::draw(ViewContext& view) {
   if (opening_ && path_[0] == '\0')
     set_text(path_, sizeof path_, (fs::current_path() / "saccade.toml").string());
   if (!begin_dialog(view, "Settings file", opening_, 560)) return;
-  ImGui::TextDisabled("A TOML file, also for --config of the command line");
+  ImGui::TextDisabled("A TOML file, which saccade run --config reads too");
   ImGui::SetNextItemWidth(-1);
   ImGui::InputText("##path", path_, sizeof path_);
   const auto attempt = [&](const auto& what) {
@@ -132,14 +132,15 @@ void SettingsDialog::draw(ViewContext& view) {
       write_file(path_, std::string_view(settings_toml(view.state.edited())));
       view.notify(std::string("Saved ") + path_);
     });
-  explain("Writes the settings that are not the default; an existing file is replaced");
+  explain("Writes the settings that differ from the default; replaces an existing file");
   ImGui::SameLine();
   if (ImGui::Button("Load"))
     attempt([&] {
       const bool into_b = view.state.comparing() && view.state.edit_b;
       const std::vector<std::string> left = load_compared(view.state.settings, into_b, path_);
       view.notify(fmt::format("Loaded {}{}{}", path_,
-                              left.empty() ? "" : "; for the command line only: ", fmt::join(left, ", ")));
+                              left.empty() ? "" : "; ignored here, since they are for the command line: ",
+                              fmt::join(left, ", ")));
     });
   ImGui::SameLine();
   if (ImGui::Button("Cancel")) ImGui::CloseCurrentPopup();

@@ -26,13 +26,13 @@ bool share_slider(const char* id, double& share) {
   return true;
 }
 
-// A range that is automatic, or locked to what it was when it was locked.
+// An automatic range that can be locked at its present values and then be changed.
 void draw_range(ViewContext& view, const char* id, std::optional<ValueRange>& range, ValueRange automatic,
                 float step, const char* format) {
   ImGui::PushID(id);
   bool locked = range.has_value();
   if (ImGui::Checkbox("Lock range", &locked)) range = locked ? std::optional(automatic) : std::nullopt;
-  explain("Keep the range from frame to frame, so that colours can be compared");
+  explain("Keeps the range from frame to frame, so that colours can be compared");
   if (range) {
     ImGui::SameLine(view.px(112) + ImGui::GetStyle().WindowPadding.x);
     ImGui::SetNextItemWidth(-1);
@@ -58,13 +58,13 @@ void draw_display_panel(ViewContext& view) {
   }
   ImGui::Spacing();
   ImGui::Checkbox("Saliency map", &view.state.show_map);
-  explain(with_key("Show the map", Action::toggle_map));
+  explain(with_key("Shows the saliency map over the picture", Action::toggle_map));
   if (view.state.show_map) {
     named_row("Map colours");
     palette_combo("##palette", style.map.palette);
-    named_row("Opacity", "Of the most salient pixel; less salient ones are more transparent");
+    named_row("Opacity", "Of the most salient pixel; less salient pixels are more transparent");
     share_slider("##opacity", style.map.opacity);
-    named_row("Threshold", "What is below this share of the range is not drawn");
+    named_row("Threshold", "Hides values below this share of the range");
     share_slider("##threshold", style.map.threshold);
     const ValueRange automatic =
         view.result ? shown_range(view.result->a.smooth, MapStyle{}) : ValueRange{0, 1};
@@ -72,13 +72,13 @@ void draw_display_panel(ViewContext& view) {
   }
   ImGui::Spacing();
   ImGui::Checkbox("Fixations", &style.marks);
-  explain(with_key("Numbered, the first in green", Action::toggle_marks));
+  explain(with_key("Numbered marks at the fixations, the first in green", Action::toggle_marks));
   ImGui::SameLine(0, view.px(14));
   ImGui::Checkbox("Scan path", &style.path);
-  explain(with_key("Lines from one to the next", Action::toggle_path));
+  explain(with_key("Lines from each fixation to the next", Action::toggle_path));
   ImGui::SameLine(0, view.px(14));
   ImGui::Checkbox("Outlines", &style.outlines);
-  explain(with_key("Of the proto-objects", Action::toggle_outlines));
+  explain(with_key("Outlines of the proto-objects", Action::toggle_outlines));
 }
 
 }  // namespace saccade

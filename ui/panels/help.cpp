@@ -28,7 +28,7 @@ void draw_help(ViewContext& view, bool& open) {
         ImGui::TextUnformatted(group.data(), group.data() + group.size());
         ImGui::PopFont();
       }
-      if (i > 0 && list[i - 1].action == s.action) continue;  // told with its first key
+      if (i > 0 && list[i - 1].action == s.action) continue;  // listed with its first key
       std::string keys = key_name(s);
       for (std::size_t k = i + 1; k < list.size() && list[k].action == s.action; ++k)
         keys += "  " + key_name(list[k]);
@@ -41,7 +41,7 @@ void draw_help(ViewContext& view, bool& open) {
     ImGui::EndTable();
   }
   ImGui::Separator();
-  ImGui::TextDisabled("Mouse on the picture: wheel zooms, drag moves, double click shows the whole.");
+  ImGui::TextDisabled("Mouse on the picture: wheel zooms, drag moves, double click fits it.");
   if (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape))) open = false;
   if (!open) ImGui::CloseCurrentPopup();
   ImGui::EndPopup();

@@ -30,15 +30,15 @@ void draw_notes(ViewContext& view) {
   ImGui::PopTextWrapPos();
   ImGui::SetCursorPos({ImGui::GetWindowWidth() - view.px(12) - ImGui::GetFrameHeight(), view.px(8)});
   if (ImGui::Button("×##notes")) view.notes.clear();
-  note_place(view, "put notes away");
-  explain("Put this away");
+  log_place(view, "dismiss notes");
+  explain("Dismiss");
   ImGui::EndChild();
   ImGui::PopStyleColor();
 }
 
 }  // namespace
 
-// Each error stays until it is put away; the rest of the window lives on.
+// Each error stays until the user dismisses it; the rest of the window goes on working.
 void draw_messages(ViewContext& view) {
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {view.px(12), view.px(8)});
   draw_notes(view);
@@ -65,8 +65,8 @@ void draw_messages(ViewContext& view) {
       ImGui::SetCursorPosX(ImGui::GetWindowWidth() - view.px(12) - ImGui::GetFrameHeight());
     }
     if (ImGui::Button("×")) gone = i;
-    note_place(view, "put error away");
-    explain("Put this away");
+    log_place(view, "dismiss error");
+    explain("Dismiss");
     ImGui::EndChild();
     ImGui::PopStyleColor();
     ImGui::PopID();

@@ -34,7 +34,7 @@ ImVec4 tone_colour(Tone tone) {
 }
 
 ImU32 series_colour(int index) {
-  // Okabe and Ito's colours, which people with any colour vision can tell apart.
+  // Okabe and Ito's colours, distinct with any colour vision.
   constexpr std::array<std::array<float, 3>, 7> kColours = {{{0.34F, 0.71F, 0.91F},
                                                              {0.90F, 0.62F, 0.00F},
                                                              {0.00F, 0.70F, 0.50F},

@@ -6,23 +6,23 @@
 
 namespace saccade {
 
-/// What a colour of the panels means.
+/// The meaning of a text's colour.
 enum class Tone { plain, quiet, good, warning, bad };
 
-/// Where something stands on the screen.
+/// The place of something on the screen.
 struct ItemPlace {
   std::string name;
   ImVec2 low, high;
 };
-ItemPlace place_of_item(const std::string& name);  ///< of the last item
+[[nodiscard]] ItemPlace place_of_item(const std::string& name);  ///< of the last item
 
 /// Readable on the background of the present style, dark or light.
-ImVec4 tone_colour(Tone tone);
+[[nodiscard]] ImVec4 tone_colour(Tone tone);
 
-/// Distinct colours for things in a row (pyramid levels, stages of the computation), the same in every panel.
-ImU32 series_colour(int index);
+/// Distinct colours for pyramid levels and stages of the computation, the same in every panel.
+[[nodiscard]] ImU32 series_colour(int index);
 
-/// Text without format marks, wrapped at the window's right side.
+/// Plain text, wrapped at the right edge of the window.
 void wrapped_text(const std::string& text, Tone tone = Tone::plain);
 
 /// A cell of a table, right-aligned, for numbers.
@@ -31,17 +31,17 @@ void number_cell(const std::string& text, Tone tone = Tone::plain);
 /// A row of a table of two columns: a quiet label and its value.
 void labelled_row(const char* label, const std::string& value, Tone tone = Tone::plain);
 
-/// Begins a table of labelled_row()s whose labels are as wide as `widest_label`; true if rows are to follow,
-/// which ImGui::EndTable() ends.
-bool begin_labelled_rows(const char* id, const char* widest_label);
+/// Begins a table of labelled_row()s whose labels are as wide as `widest_label`. If true, rows and
+/// ImGui::EndTable() must follow.
+[[nodiscard]] bool begin_labelled_rows(const char* id, const char* widest_label);
 
 /// A small square in a colour, as high as the text; the next item follows on the same line.
 void swatch(ImU32 colour);
 
-/// Begins a row of controls: its name at the left, the widget that follows fills the rest.
+/// Begins a row of controls: its name at the left; the next widget fills the rest.
 void named_row(const char* name, const char* explanation = "");
 
-/// Explains the last item when the pointer rests on it; an empty text does nothing.
+/// The tool tip of the last item; an empty text does nothing.
 void explain(const std::string& text);
 
 }  // namespace saccade

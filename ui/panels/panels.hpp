@@ -11,7 +11,7 @@
 
 namespace saccade {
 
-// The parts of the window. A panel is one small file with a free function, or a class if it keeps something,
+// The parts of the window. A panel is one small file with a function, or with a class if it keeps a state,
 // that draws into ImGui's current window. How to add one: ui/README.md.
 
 void draw_top_bar(ViewContext& view);
@@ -21,17 +21,17 @@ void draw_transport(ViewContext& view);
 void draw_messages(ViewContext& view);
 void draw_performance_panel(ViewContext& view);
 
-/// What is open and how it does.
-SourceFacts source_facts(const ViewContext& view);
+/// The open source and its state.
+[[nodiscard]] SourceFacts source_facts(const ViewContext& view);
 
-/// In the middle of the window, from `low` to `high`, and large: that there is nothing to see yet and why, or
-/// that the sensor is lost. Nothing while all is well.
+/// A large message from `low` to `high`: why there is no picture yet, or that the sensor is lost. Nothing
+/// while frames come.
 void draw_state_banner(const ViewContext& view, ImVec2 low, ImVec2 high);
 
-/// Windows over the others; `open` is what makes them appear and is cleared when they are put away.
+/// A window over the others, shown while `open`, which it clears when the user closes it.
 void draw_help(ViewContext& view, bool& open);
 
-/// The side bar with its sections.
+/// The side bar with its panels.
 class Sidebar {
  public:
   /// As SensorPanel.
@@ -42,12 +42,12 @@ class Sidebar {
   SensorPanel& sensors() { return sensors_; }
 
  private:
-  void draw_panel(ViewContext& view, SidebarPanel section);
+  void draw_panel(ViewContext& view, SidebarPanel panel);
   ProbePanel probe_;
   SensorPanel sensors_;
 };
 
-/// What to open: a path, a recent source, a folder to look through.
+/// Chooses a source: a path, a recent one, or one in a folder.
 class OpenDialog {
  public:
   void show();
@@ -70,15 +70,15 @@ class SettingsDialog {
   std::string error_;
 };
 
-/// The picture: one, two side by side, or two divided.
+/// The picture: one, two side by side, or two with a divider.
 class PicturePanel {
  public:
   PicturePanel();
   ~PicturePanel();
   void draw(ViewContext& view);
   void fit();
-  /// Another source is opened.
-  void forget();
+  /// For another source: fits the picture and drops the last frame.
+  void reset();
 
  private:
   struct Layers;

@@ -16,12 +16,12 @@ namespace {
 constexpr std::array<const char*, StageHistory::kStages> kLabels = {"capture", "points, normals", "symmetry",
                                                                     "master map", "attention"};
 constexpr std::array<const char*, StageHistory::kStages> kExplanations = {
-    "Reading and decoding the frame, and waiting for it: with a live sensor or a recording at its own speed, "
-    "most of it is waiting.",
+    "Reading and decoding the frame, and waiting for it: mostly waiting with a live sensor, or with a "
+    "recording "
+    "at its own speed.",
     "Pyramid, points and normals of every level.",
-    "The symmetry operator at every level (other models: all "
-    "of their work).",
-    "Bringing the levels to full size and adding them.",
+    "The symmetry operator at every level (other models: all of their work).",
+    "Resizing the levels to full size and adding them.",
     "Choosing the fixations and growing their proto-objects."};
 
 std::string milliseconds(double ms) { return fmt::format("{:.{}f}", ms, ms < 100 ? 1 : 0); }
@@ -75,7 +75,7 @@ void draw_stages(const StageHistory& history) {
   ImGui::EndTable();
 }
 
-// Where the plot lies on the screen, and its scale.
+// The place of the plot on the screen, and its scale.
 struct Plot {
   ImVec2 low_left, top_right;
   double end_ms;
@@ -133,7 +133,8 @@ void explain_bar_under_pointer(const Plot& plot, const std::vector<StageHistory:
 }
 
 void draw_plot(const StageHistory& history) {
-  constexpr std::size_t kFewestBars = 60;  // room for, so that the first frames do not fill the plot
+  constexpr std::size_t kFewestBars =
+      60;  // the plot has room for them, so that the first frames do not fill it
   const std::vector<StageHistory::Stack> stacks = history.stacks();
   const float em = ImGui::GetFontSize(), height = 8 * em;
   const ImVec2 at = ImGui::GetCursorScreenPos();

@@ -42,7 +42,7 @@ ImVec2 chip_size(const ViewContext& view, const std::string& text, float widest 
   return {size.x + 2 * pad.x, size.y + 2 * pad.y};
 }
 
-// Text on a dark ground, in lines of at most `widest` px; 0 = one line.
+// Text on a dark background, in lines of at most `widest` px; 0 = one line.
 void draw_chip(const ViewContext& view, ImVec2 corner, const std::string& text, unsigned colour,
                float widest = 0) {
   ImDrawList& draw = *ImGui::GetWindowDrawList();
@@ -52,7 +52,7 @@ void draw_chip(const ViewContext& view, ImVec2 corner, const std::string& text, 
                text.c_str(), nullptr, widest > 0 ? std::max(1.0F, widest - 2 * pad.x) : 0.0F);
 }
 
-// What is computed, at the top; where there is no room only which side it is.
+// The model and its kernel, at the top; only A or B where there is no room.
 void draw_title(const ViewContext& view, const Computed& computed, const PictureSide& side) {
   const float pad = view.px(8), room = side.clip_high.x - side.clip_low.x - 2 * pad;
   const Settings& s = computed.settings;
@@ -80,7 +80,7 @@ struct Legend {
   std::function<cv::Vec3b(double share)> colour;  // BGR
 };
 
-// Returns its height; nothing is drawn and 0 returned where there is no room.
+// Returns its height; draws nothing and returns 0 where there is no room.
 float draw_legend(const ViewContext& view, const Legend& legend, ImVec2 right_bottom, float room) {
   const ImVec2 low = ImGui::CalcTextSize(legend.low.c_str()), high = ImGui::CalcTextSize(legend.high.c_str());
   const float pad = view.px(6), texts = low.x + high.x + 4 * pad;
@@ -106,12 +106,12 @@ float draw_legend(const ViewContext& view, const Legend& legend, ImVec2 right_bo
 Legend map_legend(const Computed& computed, const MapStyle& style) {
   const ValueRange range = shown_range(computed.smooth, style);
   return {fmt::format("{:.2g}", range.low), fmt::format("{:.2g}", range.high), [&style](double share) {
-            // The strength is the root of the place in the range: as on the picture.
+            // As on the picture, the strength is the square root of the place in the range.
             return colours_of(style.palette)[static_cast<std::size_t>(255 * std::sqrt(share))];
           }};
 }
 
-// The legends, one over the other in the right lower corner; returns where the room above them begins.
+// The legends, stacked in the lower right corner; returns the y of their top.
 float draw_legends(const ViewContext& view, const Computed& computed, const PictureSide& side,
                    std::optional<ValueRange> depth_range) {
   const float pad = view.px(8), room = side.clip_high.x - side.clip_low.x - 2 * pad;
@@ -127,7 +127,7 @@ float draw_legends(const ViewContext& view, const Computed& computed, const Pict
   return at.y;
 }
 
-// What is under the mouse; beside the legends, or above them where there is no room.
+// The values under the mouse; beside the legends, or above them where there is no room.
 void draw_pointer(const ViewContext& view, const Computed& computed, const PictureSide& side,
                   float legends_top) {
   if (!view.pointer || view.pointer_on_b != side.is_b) return;
@@ -143,7 +143,7 @@ void draw_pointer(const ViewContext& view, const Computed& computed, const Pictu
   draw_chip(view, {side.clip_low.x + pad, bottom - size.y}, text, view.colours->on_picture);
 }
 
-// Of the fixation under the mouse.
+// The tool tip of the fixation under the mouse.
 void explain_fixation(const Computed& computed, const OverlayShapes& shapes, cv::Point2d at) {
   const int rank = mark_under(shapes, at);
   if (rank < 0) return;

@@ -15,8 +15,8 @@ constexpr double kZoomStep = 1.15, kSharpFrom = 3;
 
 }  // namespace
 
-// What is on the graphics card, and of what it was made. The map is laid over the frame here and not by the
-// graphics card, which would go over each pixel of the window twice: where it is the processor, that is felt.
+// The textures, and the inputs of which they were made. The map is blended over the frame here and not by
+// OpenGL, which would draw each pixel of the window twice: slow where software renders.
 struct PicturePanel::Layers {
   struct Side {
     std::unique_ptr<PictureTexture> texture;  // made with the first picture
@@ -29,13 +29,13 @@ struct PicturePanel::Layers {
   std::int64_t timestamp_us = 0;
   Background background_style = Background::colour;
   DepthStyle depth_style;
-  std::optional<ValueRange> depth_range;  // of the background; none = it is not of the depth
+  std::optional<ValueRange> depth_range;  // of the background; none = that does not show depth
   Side a, b;
   PictureView view;
   bool dragging = false, dragging_divider = false;
 
   void update_background(const ViewResult& result, const OverlayStyle& style) {
-    const Frame& frame = result.frame();  // the same one comes again when only the settings change
+    const Frame& frame = result.frame();  // stays the same when only the settings change
     if (index == frame.index && timestamp_us == frame.timestamp_us && background_style == style.background &&
         depth_style == style.depth)
       return;
@@ -64,7 +64,6 @@ struct PicturePanel::Layers {
     side.serial = serial;
     side.map = state.show_map;
     side.style = style;
-    context.renewed.push_back(as_imgui(side.texture->id()));
   }
 };
 
@@ -73,7 +72,7 @@ PicturePanel::~PicturePanel() = default;
 
 void PicturePanel::fit() { layers_->view.fit(); }
 
-void PicturePanel::forget() {
+void PicturePanel::reset() {
   layers_->view.fit();
   layers_->index.reset();
 }
@@ -157,9 +156,8 @@ void PicturePanel::draw_side(ViewContext& view, const PictureSide& side) {
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   draw.PushClipRect(side.clip_low, side.clip_high, true);
   PictureTexture& texture = *(side.is_b ? l.b : l.a).texture;
-  const ImTextureID id = as_imgui(texture.id());
-  if (texture.set_sharp(l.view.scale() >= kSharpFrom)) view.renewed.push_back(id);
-  draw.AddImage(id, low, high);
+  texture.set_sharp(l.view.scale() >= kSharpFrom);
+  draw.AddImage(as_imgui(texture.id()), low, high);
   draw.PopClipRect();
   draw_over_picture(view, side, l.view, l.depth_range);
 }

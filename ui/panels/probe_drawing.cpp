@@ -38,7 +38,7 @@ const PlaneSymmetry* best_plane(const LevelProbe& level) {
   return winner ? &level.symmetry->planes[*winner] : nullptr;
 }
 
-// What there is to say of a level in a word or two.
+// The result of a level in a word or two.
 std::string verdict_of(const LevelProbe& level) {
   if (level.depth_mm == 0) return "no reading";
   if (!level.symmetry) return "no normal";
@@ -98,11 +98,11 @@ void draw_levels(const ProbeShown& shown, int listed, ProbePanelState& state) {
   explain("What the level adds to the saliency of this pixel: its map, interpolated here, times its weight.");
   ImGui::TableNextColumn();
   number_cell("s", Tone::quiet);
-  explain("The operator at the level's nearest pixel, 0 to 4.");
+  explain("The operator's value at the level's nearest pixel, 0 to 4.");
   number_cell("px", Tone::quiet);
-  explain("The side of the operator's window in pixels of the image.");
+  explain("Side of the operator's window, in pixels of the image.");
   number_cell("mm", Tone::quiet);
-  explain("The same at the depth of the pixel.");
+  explain("The same in millimetres, at the depth of the pixel.");
   for (std::size_t i = 0; i < shown.probe.levels.size(); ++i) draw_level_row(shown, i, listed, state);
   ImGui::EndTable();
 }
@@ -133,7 +133,8 @@ void draw_planes(const LevelProbe& level) {
   number_cell("plane", Tone::quiet);
   number_cell("score", Tone::quiet);
   number_cell("w1", Tone::quiet);
-  explain("omega_1, Eq. (8): how well the halves' common normal stands on the line between them, 0 to 1.");
+  explain(
+      "omega_1, Eq. (8): how perpendicular the halves' common normal is to the line between them, 0 to 1.");
   number_cell("w2", Tone::quiet);
   explain("omega_2, Eq. (12): how strongly the halves' normals turn away from each other, 0 to 4.");
   number_cell("dD mm", Tone::quiet);
@@ -161,8 +162,8 @@ void draw_footprint(ImDrawList& list, const LevelProbe& level, bool listed, cons
                                                                  rect.width, level.footprint_mm)
                                                    : fmt::format("L{}: {:.0f} px", level.level, rect.width);
   const ImVec2 size = ImGui::CalcTextSize(label.c_str());
-  if (high.x - low.x < size.x * 0.6F) return;  // no room; the table says it
-  // At the lower edge, but always in sight.
+  if (high.x - low.x < size.x * 0.6F) return;  // no room; the table has the value
+  // At the lower edge, but always visible.
   const float x = std::clamp(low.x, place.clip_min.x, std::max(place.clip_min.x, place.clip_max.x - size.x));
   const float y = std::min(high.y, place.clip_max.y) - size.y - line;
   list.AddRectFilled({x, y}, {x + size.x + 2 * line, y + size.y}, IM_COL32(0, 0, 0, 150));
@@ -213,7 +214,7 @@ std::optional<std::pair<cv::Point2d, cv::Point2d>> plane_trace(const cv::Vec3d& 
 
 void draw_probe(const std::optional<ProbeShown>& shown, ProbePanelState& state) {
   if (!shown) {
-    wrapped_text("Point at the picture: here is what the operator sees there.", Tone::quiet);
+    wrapped_text("Point at the picture to see what the operator computes there.", Tone::quiet);
     return;
   }
   draw_pixel(*shown);
@@ -221,11 +222,11 @@ void draw_probe(const std::optional<ProbeShown>& shown, ProbePanelState& state) 
   if (listed < 0) return;
   ImGui::Spacing();
   if (!shown->levels_apply)
-    wrapped_text(fmt::format("The map is of model {}; this is what symmetry3d says here:", shown->model),
+    wrapped_text(fmt::format("The map is of model {}; these are the values of symmetry3d:", shown->model),
                  Tone::warning);
   draw_levels(*shown, listed, state);
   if (shown->levels_apply)
-    wrapped_text(fmt::format("the levels' sum: {:.4f}", shown->probe.saliency), Tone::quiet);
+    wrapped_text(fmt::format("sum of the levels: {:.4f}", shown->probe.saliency), Tone::quiet);
   ImGui::Spacing();
   draw_planes(shown->probe.levels[static_cast<std::size_t>(listed)]);
 }

@@ -12,22 +12,23 @@
 
 namespace saccade {
 
-/// A probed pixel for people to see.
+/// A probed pixel, for display.
 struct ProbeShown {
   Probe probe;
   Intrinsics camera;
-  double saliency = 0;       ///< of the map on screen
-  std::string model;         ///< that made the map
-  bool levels_apply = true;  ///< the map is the sum of the probe's levels; else they are only geometry
+  double saliency = 0;  ///< in the map on screen
+  std::string model;    ///< of the map
+  bool levels_apply =
+      true;  ///< the map is the sum of the probe's levels; else they only describe the geometry
 };
 
-/// What a person has chosen in the panel.
+/// The user's choice in the panel.
 struct ProbePanelState {
-  int level = -1;  ///< whose planes are listed; -1 = the one that contributes most
+  int level = -1;  ///< the level whose planes are listed; -1 = the one that contributes most
 };
 
-/// Where the image is on the screen: pixel (row, col) of the image covers a square of `scale` with its middle
-/// at `origin + scale * (col + 0.5, row + 0.5)`. Drawing is clipped to clip_min..clip_max.
+/// The place of the image on the screen: pixel (row, col) covers a square of `scale` with its middle at
+/// `origin + scale * (col + 0.5, row + 0.5)`. Drawing is clipped to clip_min..clip_max.
 struct PicturePlace {
   ImVec2 origin, clip_min, clip_max;
   float scale = 1;
@@ -38,25 +39,26 @@ struct PicturePlace {
   }
 };
 
-/// The panel: numbers of the pixel, the levels' parts of its saliency, and the three candidate planes of one
-/// level. Without a probe it says what to do. Within an ImGui window, on the thread that draws.
+/// Draws the panel: values of the pixel, the contribution of each level to its saliency, and the three
+/// candidate planes of one level. Without a probe, a hint. Within an ImGui window, on the thread that draws.
 void draw_probe(const std::optional<ProbeShown>& shown, ProbePanelState& state);
 
-/// The operator's windows of all levels around the probed pixel with their sizes, and the winning plane of
-/// the listed level, on the picture.
+/// Draws the operator's windows of all levels around the probed pixel, with their sizes, and the winning
+/// plane of the listed level, on the picture.
 void draw_footprints(ImDrawList& list, const ProbeShown& shown, const ProbePanelState& state,
                      const PicturePlace& place);
 
-/// The position in probe.levels that `state` means: the chosen level or the one that contributes most; -1 if
+/// The index in probe.levels of the level that `state` chooses, or of the one that contributes most; -1 if
 /// there are no levels.
-int listed_level(const Probe& probe, const ProbePanelState& state);
+[[nodiscard]] int listed_level(const Probe& probe, const ProbePanelState& state);
 
 /// The line in which a plane through `point_mm` with normal `gamma` cuts the surface there (normal
 /// `surface`), `length_mm` long: its ends in pixels (x = col). None if the plane lies in the surface, or an
-/// end is not before the camera.
-std::optional<std::pair<cv::Point2d, cv::Point2d>> plane_trace(const cv::Vec3d& gamma,
-                                                               const cv::Vec3d& surface,
-                                                               const cv::Point3d& point_mm, double length_mm,
-                                                               const Intrinsics& camera);
+/// end is behind the camera.
+[[nodiscard]] std::optional<std::pair<cv::Point2d, cv::Point2d>> plane_trace(const cv::Vec3d& gamma,
+                                                                             const cv::Vec3d& surface,
+                                                                             const cv::Point3d& point_mm,
+                                                                             double length_mm,
+                                                                             const Intrinsics& camera);
 
 }  // namespace saccade

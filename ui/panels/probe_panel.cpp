@@ -7,7 +7,7 @@
 namespace saccade {
 namespace {
 
-// The settings' parameters, with as many levels as the frame has room for.
+// The settings' parameters, with the levels that the frame has room for; none if it has room for none.
 std::optional<Symmetry3dParams> params_for(const Settings& settings, cv::Size size) {
   Symmetry3dParams params = settings;
   params.last_level = std::min(params.last_level, deepest_level(size));
@@ -18,8 +18,8 @@ std::optional<Symmetry3dParams> params_for(const Settings& settings, cv::Size si
 
 }  // namespace
 
-// The levels' weights in the master map; they are of the whole maps, so they are kept while only the pixel
-// changes. Empty = all 1.
+// The weights of the levels in the master map. They depend on whole maps, so they are kept while only the
+// pixel changes. Empty = all 1.
 std::vector<double> ProbePanel::weights_of(const Computed& computed, const Symmetry3dParams& params,
                                            const Source& source) {
   const std::vector<cv::Mat1f>& maps = computed.result.maps.levels;

@@ -9,13 +9,13 @@
 namespace saccade {
 
 /// The probe in the side bar. It follows the mouse over the picture and stays at the last pixel when the
-/// mouse leaves it, so that one can read the numbers and choose a level.
+/// mouse leaves, so that the user can read the values and choose a level.
 class ProbePanel {
  public:
   void draw(ViewContext& view);
 
  private:
-  // What the probe was made of.
+  // The input of the probe.
   struct Source {
     std::int64_t serial;
     bool b;
@@ -31,7 +31,7 @@ class ProbePanel {
   bool on_b_ = false;
   std::optional<Source> source_;
   std::optional<ProbeShown> shown_;
-  // Of the last computation that needed them:
+  // The weights, and the input for which they were computed:
   std::optional<Source> weighed_;
   std::vector<double> weights_;
 };

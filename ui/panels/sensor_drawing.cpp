@@ -36,9 +36,8 @@ void draw_headline(const SensorFacts& facts, std::chrono::steady_clock::time_poi
                              connection.colourless == 1 ? "" : "s"),
                  Tone::warning);
   if (connection.losses > 0)
-    wrapped_text(fmt::format("Lost {} so far, away for {}",
-                             connection.losses == 1 ? "once" : fmt::format("{} times", connection.losses),
-                             seconds_text(connection.away_s)),
+    wrapped_text(fmt::format("{} dropout{} so far, {} in total", connection.losses,
+                             connection.losses == 1 ? "" : "s", seconds_text(connection.away_s)),
                  Tone::warning);
 }
 
@@ -47,19 +46,20 @@ void draw_buttons(const SensorFacts& facts, SensorActions& actions) {
   ImGui::BeginDisabled(facts.recording.phase == Phase::closing || (!recording && !facts.source.open));
   if (recording) ImGui::PushStyleColor(ImGuiCol_Button, {0.70F, 0.10F, 0.10F, 1});
   if (recording) ImGui::PushStyleColor(ImGuiCol_Text, {1, 1, 1, 1});
-  // One width for both words, so that the buttons stay where they are.
+  // One width for both labels, so that the buttons do not move.
   const float width = ImGui::CalcTextSize("Stop recording").x + 2 * ImGui::GetStyle().FramePadding.x;
   actions.toggle_recording =
       ImGui::Button(recording ? "Stop recording###record" : "Record###record", {width, 0});
   if (recording) ImGui::PopStyleColor(2);
   ImGui::EndDisabled();
-  explain(
-      "Records every frame that comes from the source, also those that are not computed, to an .oni file.");
+  explain("Records every frame of the source to an .oni file, also frames that are not computed.");
   ImGui::SameLine();
   ImGui::BeginDisabled(!facts.source.open);
   actions.snapshot = ImGui::Button("Snapshot");
   ImGui::EndDisabled();
-  explain("Writes what is on screen: overlay (PNG), saliency map (TIFF) and fixations (JSON).");
+  explain(
+      "Writes the frame on screen: overlay (PNG), saliency map (TIFF, PNG), fixations (JSON) and settings "
+      "(TOML).");
 }
 
 void draw_written(const SensorFacts& facts) {
@@ -96,8 +96,9 @@ void draw_devices(const SensorFacts& facts, SensorActions& actions) {
                        facts.source.connection.connection == SourceState::Connection::streaming;
   if (facts.devices->empty() && streams) return wrapped_text("In use: " + facts.source.connection.text);
   if (facts.devices->empty())
-    wrapped_text("None is connected; a new one appears here by itself. If one should be here: saccade doctor",
-                 Tone::quiet);
+    wrapped_text(
+        "No sensor is connected. A new one appears here by itself; if one is missing, run: saccade doctor",
+        Tone::quiet);
   for (const DeviceChoice& device : *facts.devices)
     draw_device(device,
                 facts.source.open && (facts.source.uri == device.source ||
@@ -107,7 +108,7 @@ void draw_devices(const SensorFacts& facts, SensorActions& actions) {
 
 void draw_mode(const SensorFacts& facts, SensorActions& actions) {
   if (facts.modes.empty()) return;
-  named_row("Mode", "Size and rate of the depth; a change opens the sensor again.");
+  named_row("Mode", "Size and rate of the depth images. A change opens the sensor again.");
   const bool open = ImGui::BeginCombo("##mode", to_text(facts.mode).c_str());
   if (!open) actions.places.push_back(place_of_item("Mode"));
   if (!open) return;
@@ -119,7 +120,7 @@ void draw_mode(const SensorFacts& facts, SensorActions& actions) {
   ImGui::EndCombo();
 }
 
-// A switch of the sensor, if it has that one. What is asked for goes into `request`.
+// A switch of the sensor, if it has that one. A change goes into `request`.
 void draw_switch(const char* label, const std::optional<bool>& value, const char* what,
                  std::optional<bool> SensorValues::*field, SensorActions& actions) {
   if (!value) return;
@@ -136,7 +137,7 @@ void draw_exposure(const SensorValues& values, SensorActions& actions) {
   draw_switch("Automatic exposure", values.auto_exposure, "The colour camera sets its exposure itself.",
               &SensorValues::auto_exposure, actions);
   if (!values.exposure || values.auto_exposure.value_or(false)) return;
-  named_row("Exposure", "In the sensor's own unit; larger is brighter. Enter sets it.");
+  named_row("Exposure", "In the sensor's own unit; larger is brighter. Press Enter to set it.");
   int exposure = *values.exposure;
   if (!ImGui::InputInt("##exposure", &exposure, 1, 10, ImGuiInputTextFlags_EnterReturnsTrue)) return;
   if (!actions.request) actions.request.emplace();
@@ -145,9 +146,9 @@ void draw_exposure(const SensorValues& values, SensorActions& actions) {
 
 void draw_controls(const SensorFacts& facts, SensorActions& actions) {
   const SensorValues& values = facts.values;
-  draw_switch("Registration", values.registration, "Depth as seen from the colour camera.",
+  draw_switch("Registration", values.registration, "Aligns the depth with the colour image.",
               &SensorValues::registration, actions);
-  draw_switch("Mirror", values.mirror, "Left and right exchanged.", &SensorValues::mirror, actions);
+  draw_switch("Mirror", values.mirror, "Swaps left and right.", &SensorValues::mirror, actions);
   draw_exposure(values, actions);
   draw_switch("Automatic white balance", values.auto_white_balance,
               "The colour camera sets its white balance itself.", &SensorValues::auto_white_balance, actions);
@@ -161,10 +162,10 @@ Headline headline(const SourceFacts& source, std::chrono::steady_clock::time_poi
   if (!source.open) return {source.uri.empty() ? "No source" : "Opening …", Tone::quiet};
   switch (source.connection.connection) {
     case Connection::waiting:
-      return {"Waiting for device", Tone::warning};
+      return {"Waiting for the sensor", Tone::warning};
     case Connection::lost: {
       const double s = std::chrono::duration<double>(now - source.connection.since).count();
-      return {fmt::format("Lost {} ago, retrying", seconds_text(std::max(s, 0.0))), Tone::bad};
+      return {fmt::format("Sensor lost {} ago, retrying", seconds_text(std::max(s, 0.0))), Tone::bad};
     }
     case Connection::streaming:
       break;

@@ -20,7 +20,7 @@ SensorMode mode_of(const SourceInfo& source) {
   return {source.size.width, source.size.height, cvRound(source.rate_hz)};
 }
 
-// Not on the thread that draws: a network disk may let one wait.
+// Not on the thread that draws: a network disk may block.
 std::optional<std::uint64_t> free_space(const std::filesystem::path& folder) {
   std::error_code code;
   const std::filesystem::space_info space = std::filesystem::space(folder, code);
@@ -69,12 +69,12 @@ void SensorPanel::end_recording() {
 }
 
 void SensorPanel::poll(ViewContext& view) {
-  take_snapshot_result(view);
+  poll_snapshot(view);
   if (snapshot_due_) snapshot(view);
   view.recording = recording_->status();
   if (recording_reported_ || view.recording.phase != RecordingStatus::Phase::idle) return;
   recording_reported_ = true;
-  end_recording();  // it may have ended by itself
+  end_recording();  // it may have ended because of an error
   if (view.recording.error.empty())
     view.notify(fmt::format("Recorded {} frames: {}", view.recording.frames, view.recording.file.string()));
   else
@@ -83,9 +83,9 @@ void SensorPanel::poll(ViewContext& view) {
 
 void SensorPanel::snapshot(ViewContext& view) {
   if (!view.result || writing_.valid()) return;
-  snapshot_due_ = view.result->draft;  // the whole map is on its way
+  snapshot_due_ = view.result->draft;  // the whole map follows
   if (snapshot_due_) return;
-  snapshot_ = "writing the snapshot ...";
+  snapshot_ = "Writing the snapshot …";
   snapshot_error_.clear();
   OverlayStyle style = view.state.style;
   if (!view.state.show_map) style.map.opacity = 0;
@@ -98,12 +98,12 @@ void SensorPanel::snapshot(ViewContext& view) {
   });
 }
 
-void SensorPanel::take_snapshot_result(ViewContext& view) {
+void SensorPanel::poll_snapshot(ViewContext& view) {
   if (!writing_.valid() || writing_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
   snapshot_.clear();
   try {
     view.snapshot = writing_.get().string();
-    snapshot_ = "snapshot in " + view.snapshot;
+    snapshot_ = "Snapshot in " + view.snapshot;
     view.notify("Snapshot: " + view.snapshot);
   } catch (const std::exception& error) {
     snapshot_error_ = error.what();
@@ -111,14 +111,15 @@ void SensorPanel::take_snapshot_result(ViewContext& view) {
   }
 }
 
-void SensorPanel::look_at_disk() {
+void SensorPanel::poll_disk() {
   constexpr std::chrono::seconds kPeriod{2};
   const auto now = std::chrono::steady_clock::now();
-  if (looking_.valid()) {
-    if (looking_.wait_for(std::chrono::seconds(0)) == std::future_status::ready) free_bytes_ = looking_.get();
-  } else if (now - looked_ > kPeriod) {
-    looked_ = now;
-    looking_ = std::async(std::launch::async, [folder = folder_] { return free_space(folder); });
+  if (measuring_.valid()) {
+    if (measuring_.wait_for(std::chrono::seconds(0)) == std::future_status::ready)
+      free_bytes_ = measuring_.get();
+  } else if (now - measured_ > kPeriod) {
+    measured_ = now;
+    measuring_ = std::async(std::launch::async, [folder = folder_] { return free_space(folder); });
   }
 }
 
@@ -140,15 +141,15 @@ SensorFacts SensorPanel::facts(const ViewContext& view) {
 }
 
 void SensorPanel::draw(ViewContext& view) {
-  look_at_disk();
+  poll_disk();
   const SensorFacts now = facts(view);
   const SensorActions actions = draw_sensors(now, std::chrono::steady_clock::now(), view.fonts.large);
-  for (const ItemPlace& place : actions.places) note_place(view, place);
+  for (const ItemPlace& place : actions.places) log_place(view, place);
   if (actions.toggle_recording) toggle_recording(view);
   if (actions.snapshot) snapshot(view);
-  // The settings say what is wanted of the sensor; the viewer asks it for what has changed.
+  // The settings hold the wanted values; the viewer requests the changed ones from the sensor.
   SensorSettings& wanted = view.state.settings.a.sensor;
-  if (actions.request) take_request(wanted, *actions.request, now.values);
+  if (actions.request) store_request(wanted, *actions.request, now.values);
   if (actions.mode) wanted.mode = actions.mode;
   if (actions.open) view.open(*actions.open);
 }

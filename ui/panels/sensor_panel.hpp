@@ -15,8 +15,8 @@
 
 namespace saccade {
 
-/// Sensors, recording and snapshots in the side bar. Files go to the folder in which the program was started,
-/// or to the user's own where that cannot be written.
+/// Sensors, recording and snapshots in the side bar. Files go to the working directory, or to the user's home
+/// where that is not writable.
 class SensorPanel {
  public:
   /// `list_sensors` may throw; it is called on a thread of its own. `wake` is called on any thread when there
@@ -26,22 +26,22 @@ class SensorPanel {
   SensorPanel(const SensorPanel&) = delete;
   SensorPanel& operator=(const SensorPanel&) = delete;
 
-  /// Whether the section is open; it looks for sensors only then. Each frame, also when it is closed.
+  /// Lists the sensors only while the panel is open. Each frame, also when it is closed.
   void set_open(bool open) { devices_.set_active(open); }
   void draw(ViewContext& view);
 
-  /// Tells what became of recordings and snapshots. Each frame, whether the section is seen or not.
+  /// Reports finished recordings and snapshots. Each frame, also when the panel is closed.
   void poll(ViewContext& view);
 
   void toggle_recording(ViewContext& view);
-  /// Ends a recording: its source is to be closed.
+  /// Ends a recording, before its source is closed.
   void end_recording();
   void snapshot(ViewContext& view);
 
  private:
   SensorFacts facts(const ViewContext& view);
-  void take_snapshot_result(ViewContext& view);
-  void look_at_disk();
+  void poll_snapshot(ViewContext& view);
+  void poll_disk();
 
   const std::filesystem::path folder_;
   const std::function<void()> wake_;
@@ -49,13 +49,13 @@ class SensorPanel {
   const std::shared_ptr<RecordingSession> recording_ = std::make_shared<RecordingSession>();
   PlaybackControls* tapped_ = nullptr;
   DeviceWatch devices_;
-  std::future<std::optional<std::uint64_t>> looking_;
-  std::chrono::steady_clock::time_point looked_{};
+  std::future<std::optional<std::uint64_t>> measuring_;  // free_bytes_, on its way
+  std::chrono::steady_clock::time_point measured_{};
   std::optional<std::uint64_t> free_bytes_;     // of the folder's disk
-  std::future<std::filesystem::path> writing_;  // the snapshot on its way to the disk
-  bool snapshot_due_ = false;                   // as soon as the map is whole
+  std::future<std::filesystem::path> writing_;  // the snapshot that is being written
+  bool snapshot_due_ = false;                   // once the whole map is there
   std::string snapshot_, snapshot_error_;
-  bool recording_reported_ = true;  // how the last one ended
+  bool recording_reported_ = true;  // the end of the last one
 };
 
 }  // namespace saccade

@@ -7,14 +7,14 @@
 namespace saccade {
 namespace {
 
-// The sections from top to bottom; a new one is a new line here and in Sidebar::draw_panel().
+// The panels from top to bottom; a new one is a line here and one in Sidebar::draw_panel().
 struct SidebarEntry {
-  SidebarPanel section;
+  SidebarPanel panel;
   const char* title;
 };
 constexpr std::array<SidebarEntry, kSidebarPanels> kSidebar = {
     {{SidebarPanel::tuning, "Tuning"},
-     {SidebarPanel::display, "Picture"},
+     {SidebarPanel::display, "Display"},
      {SidebarPanel::probe, "Probe"},
      {SidebarPanel::performance, "Performance"},
      {SidebarPanel::sensors, "Sensors and recording"}}};
@@ -24,23 +24,23 @@ constexpr std::array<SidebarEntry, kSidebarPanels> kSidebar = {
 void Sidebar::draw(ViewContext& view) {
   for (const SidebarEntry& s : kSidebar) {
     ImGui::PushID(s.title);
-    ImGui::SetNextItemOpen(view.state.is_open(s.section));
+    ImGui::SetNextItemOpen(view.state.is_open(s.panel));
     ImGui::PushFont(view.fonts.bold);
     const bool open = ImGui::CollapsingHeader(s.title);
     ImGui::PopFont();
-    view.state.is_open(s.section) = open;
-    if (s.section == SidebarPanel::sensors) sensors_.set_open(open);
+    view.state.is_open(s.panel) = open;
+    if (s.panel == SidebarPanel::sensors) sensors_.set_open(open);
     if (open) {
       ImGui::Dummy({0, view.px(1)});
-      draw_panel(view, s.section);
+      draw_panel(view, s.panel);
       ImGui::Dummy({0, view.px(6)});
     }
     ImGui::PopID();
   }
 }
 
-void Sidebar::draw_panel(ViewContext& view, SidebarPanel section) {
-  switch (section) {
+void Sidebar::draw_panel(ViewContext& view, SidebarPanel panel) {
+  switch (panel) {
     case SidebarPanel::tuning:
       return draw_tuning_panel(view);
     case SidebarPanel::display:

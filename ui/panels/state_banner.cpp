@@ -22,9 +22,9 @@ Banner banner_of(const ViewContext& view) {
   const bool there = s.phase == Phase::open && s.connection.connection == SourceState::Connection::streaming;
   if (there) return view.result ? Banner{} : Banner{{"Waiting for the first frame …", Tone::quiet}, ""};
   if (s.phase == Phase::open && s.connection.connection == SourceState::Connection::waiting)
-    return {line, "It is opened as soon as it is there. If it should be there: saccade doctor"};
+    return {line, "It opens as soon as it is connected. If it is connected already, run: saccade doctor"};
   if (s.phase == Phase::open) return {line, s.connection.text};
-  if (view.result) return {};  // the bar above says it, and the last picture stays
+  if (view.result) return {};  // the message bar says it, and the last picture stays
   if (s.phase == Phase::opening) return {line, s.uri};
   return {{"Nothing to show", Tone::quiet}, "Open a source, or drop a file or folder here."};
 }
@@ -54,9 +54,9 @@ void draw_state_banner(const ViewContext& view, ImVec2 low, ImVec2 high) {
   const ImVec2 detail = ImGui::CalcTextSize(banner.detail.c_str(), nullptr, false, wrap);
   const float width = std::max(size.x, detail.x), height = size.y + (detail.x > 0 ? gap + detail.y : 0);
   const float middle = (low.x + high.x) / 2;
-  // Over a picture it stands higher, on a ground of its own.
+  // Over a picture it is higher up, on a background of its own.
   const float top = view.result ? low.y + 0.2F * (high.y - low.y) : (low.y + high.y - height) / 2;
-  // A window of its own, which lies over those that were drawn before and lets the mouse through.
+  // A window of its own, over those drawn before it; the mouse passes through.
   ImGui::SetCursorScreenPos(low);
   ImGui::BeginChild("banner", {high.x - low.x, high.y - low.y}, false,
                     ImGuiWindowFlags_NoInputs | ImGuiWindowFlags_NoBackground | ImGuiWindowFlags_NoScrollbar);

@@ -109,7 +109,7 @@ void apply_theme(Theme theme, double scale) {
   set(ImGuiCol_Header, s.button);
   set(ImGuiCol_HeaderHovered, s.button_hovered);
   set(ImGuiCol_HeaderActive, s.frame_active);
-  set(ImGuiCol_SliderGrab, s.grab);  // the value stands on it: it must be readable there
+  set(ImGuiCol_SliderGrab, s.grab);  // the value is printed over it and must be readable
   set(ImGuiCol_SliderGrabActive, s.grab);
   set(ImGuiCol_CheckMark, c.accent);
   set(ImGuiCol_TextSelectedBg, faint(90));

@@ -17,7 +17,7 @@ std::string short_name(const std::string& uri) {
   return path.has_filename() ? path.filename().string() : uri;
 }
 
-// What is open and how it is doing, in plain words.
+// The state of the open source.
 std::string source_line(const ViewContext& view) {
   const SessionState& s = view.source;
   const auto now = StageHistory::Clock::now();
@@ -52,9 +52,9 @@ void draw_top_bar(ViewContext& view) {
   static const std::vector<std::string> centres = {"Picture", "Points", "Both"};
   static const std::vector<std::string> comparisons = {"A", "A | B", "Split"};
   if (ImGui::Button("Open…")) view.act(Action::open_source);
-  explain(
-      with_key("Open a recording, a folder or a sensor; or drop one onto the window", Action::open_source));
-  note_place(view, "open");
+  explain(with_key("Open a recording, a folder or a sensor; or drop a file onto the window",
+                   Action::open_source));
+  log_place(view, "open");
   ImGui::SameLine(0, view.px(14));
 
   const float gap = view.px(14);
@@ -92,11 +92,11 @@ void draw_top_bar(ViewContext& view) {
   int comparison = static_cast<int>(view.state.comparison);
   if (segments(view, "comparison", comparisons, comparison))
     view.state.comparison = static_cast<Comparison>(comparison);
-  explain(with_key("Compare two models or kernels on the same frame", Action::next_comparison));
+  explain(with_key("Compare two settings on the same frame", Action::next_comparison));
   ImGui::SameLine(0, gap);
   if (ImGui::Button(view.state.theme == Theme::dark ? "Light" : "Dark", {theme_width, 0}))
     view.act(Action::toggle_theme);
-  explain(with_key("Dark or light", Action::toggle_theme));
+  explain(with_key("Switch to the other theme", Action::toggle_theme));
   ImGui::SameLine(0, gap / 2);
   if (ImGui::Button("?")) view.act(Action::show_help);
   explain(with_key("Keyboard shortcuts", Action::show_help));

@@ -21,20 +21,20 @@ void draw_speed(ViewContext& view) {
         view.session.playback().set_speed(speed);
     ImGui::EndCombo();
   }
-  explain(with_key("Speed", Action::slower) + ", " + key_name(Action::faster));
+  explain(fmt::format("Speed ({} slower, {} faster)", key_name(Action::slower), key_name(Action::faster)));
 }
 
-// A button that does what a shortcut does; `gap` stands before it.
+// A button for an action, after a space of `gap`.
 void action_button(ViewContext& view, const char* name, Icon icon, Action action, const std::string& text,
                    float gap, bool lit = false) {
   if (gap > 0) ImGui::SameLine(0, gap);
   ImGui::PushID(name);
   if (icon_button(view, "##button", icon, lit, with_key(text, action))) view.act(action);
   ImGui::PopID();
-  note_place(view, name);
+  log_place(view, name);
 }
 
-void draw_keeping(ViewContext& view) {
+void draw_recording_buttons(ViewContext& view) {
   const bool recording = view.recording.phase == RecordingStatus::Phase::recording;
   action_button(view, "record", Icon::record, Action::record,
                 recording ? "Stop recording" : "Record to an .oni file", view.px(10), recording);
@@ -47,16 +47,16 @@ void draw_buttons(ViewContext& view) {
   const float gap = view.px(3);
   if (!live) {
     action_button(view, "first", Icon::first, Action::first_frame, "First frame", 0);
-    action_button(view, "back", Icon::step_back, Action::step_back, "One frame back", gap);
+    action_button(view, "back", Icon::step_back, Action::previous_frame, "Previous frame", gap);
   }
   action_button(view, "play", paused ? Icon::play : Icon::pause, Action::play_pause,
                 paused ? "Play" : "Pause", live ? 0 : gap);
-  if (live) return draw_keeping(view);
-  action_button(view, "on", Icon::step_on, Action::step_on, "One frame on", gap);
+  if (live) return draw_recording_buttons(view);
+  action_button(view, "on", Icon::step_forward, Action::next_frame, "Next frame", gap);
   action_button(view, "last", Icon::last, Action::last_frame, "Last frame", gap);
-  action_button(view, "loop", Icon::loop, Action::toggle_loop, loop ? "Loop is on" : "Loop is off",
-                view.px(10), loop);
-  draw_keeping(view);
+  action_button(view, "loop", Icon::loop, Action::toggle_loop, loop ? "Stop looping" : "Loop", view.px(10),
+                loop);
+  draw_recording_buttons(view);
   ImGui::SameLine(0, view.px(10));
   draw_speed(view);
 }
@@ -69,7 +69,7 @@ std::string position_text(const ViewContext& view) {
   return fmt::format("frame {}{}   {:.2f} s", frame.index, of, static_cast<double>(frame.timestamp_us) / 1e6);
 }
 
-// The strength of the first fixation of the frames seen, a bar or a line each.
+// A bar for each computed frame: the saliency of its first fixation.
 void draw_strengths(const ViewContext& view, ImVec2 corner, ImVec2 size, std::int64_t frames) {
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const float largest = view.timeline.largest();
@@ -118,10 +118,10 @@ void draw_line(ViewContext& view, std::int64_t frames) {
     const auto& entries = view.timeline.entries();
     const auto place = static_cast<std::size_t>(under);
     const bool seen = place < entries.size() && entries[place].seen;
-    ImGui::SetTooltip("%s",
-                      (seen ? fmt::format("frame {}, first fixation {:.2f}", under, entries[place].strength)
-                            : fmt::format("frame {}, not seen yet", under))
-                          .c_str());
+    ImGui::SetTooltip("%s", (seen ? fmt::format("frame {}, saliency of the first fixation {:.2f}", under,
+                                                entries[place].strength)
+                                  : fmt::format("frame {}, not computed yet", under))
+                                .c_str());
   }
   if (!view.result) return;
   const float x =
@@ -141,7 +141,7 @@ void draw_transport(ViewContext& view) {
   if (view.source.source.live) return;
   const auto seen = static_cast<std::int64_t>(view.timeline.entries().size());
   const std::int64_t frames = view.source.source.frame_count.value_or(seen);
-  const char* caption = "strength of the first fixation";
+  const char* caption = "saliency of the first fixation";
   const float width = ImGui::CalcTextSize(caption).x;
   ImGui::SameLine();
   if (ImGui::GetContentRegionAvail().x > width + view.px(10)) {

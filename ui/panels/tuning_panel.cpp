@@ -12,19 +12,22 @@ namespace saccade {
 namespace {
 
 void draw_kernel(ViewContext& view, Settings& s) {
-  named_row("Kernel", "Size of the window around each pixel, at every level");
+  named_row("Kernel", "Side of the operator's window around each pixel, at every pyramid level");
   if (ImGui::SliderInt("##kernel", &s.kernel, 3, 127, "%d px", ImGuiSliderFlags_AlwaysClamp))
     s.kernel = std::clamp(s.kernel | 1, 3, 127);  // the window is odd
-  explain(with_key("Drag, or Ctrl+click to type", Action::kernel_down) + ", " + key_name(Action::kernel_up));
-  note_place(view, "kernel");
+  explain(with_key("Drag, or Ctrl+click to type a size", Action::kernel_down) + ", " +
+          key_name(Action::kernel_up));
+  log_place(view, "kernel");
 }
 
 void draw_levels(ViewContext& view, Settings& s) {
-  // The default levels are cut to what the frames have room for; that is what is shown.
+  // Shows the default levels as they are used, cut to those that the frame has room for.
   const Computed* shown = view.result ? &view.result->a : nullptr;
   int first = s.first_level, last = s.last_level;
   if (!s.levels_chosen && shown != nullptr) last = std::min(last, shown->settings.last_level);
-  named_row("Levels", "Pyramid levels that are added; 0 is full size, each next one half of the last");
+  named_row("Levels",
+            "The pyramid levels whose maps are added. Level 0 has full size, each further one half the size "
+            "of the one before.");
   if (ImGui::DragIntRange2("##levels", &first, &last, 0.05F, 0, 8, "from %d", "to %d",
                            ImGuiSliderFlags_AlwaysClamp)) {
     s.first_level = first;
@@ -38,11 +41,12 @@ void draw_operator(ViewContext& view, Settings& s) {
   draw_kernel(view, s);
   draw_levels(view, s);
   named_row("Length scale",
-            "Unit of the distances: relative to the window, or millimetres as the paper's authors");
+            "Unit of distances: relative to the size of the window on the surface, or millimetres as in the "
+            "paper.");
   int scale = static_cast<int>(s.length_scale);
   if (segments(view, "scale", choices_of("length-scale"), scale))
     s.length_scale = static_cast<LengthScale>(scale);
-  named_row("Normalise", "Each level's map before they are added");
+  named_row("Normalise", "Normalisation of each level's map");
   int normalisation = static_cast<int>(s.normalisation);
   if (segments(view, "normalise", choices_of("normalisation"), normalisation))
     s.normalisation = static_cast<LevelNormalisation>(normalisation);
@@ -50,11 +54,11 @@ void draw_operator(ViewContext& view, Settings& s) {
 }
 
 void draw_attention(ViewContext& view, Settings& s) {
-  named_row("Selector", "proto: one point for each object; wta: the paper's winner-take-all network");
+  named_row("Selector", "proto: one fixation per object; wta: the paper's winner-take-all network");
   int selector = static_cast<int>(s.selector);
   if (segments(view, "selector", choices_of("selector"), selector))
     s.selector = static_cast<Selector>(selector);
-  named_row("Fixations", "Points asked for in each frame");
+  named_row("Fixations", "Fixations per frame, at most");
   ImGui::SliderInt("##fixations", &s.fixations, 1, 30, "%d");
   s.fixations = std::clamp(s.fixations, 1, 1000);
   if (s.selector != Selector::wta) return;
@@ -67,24 +71,25 @@ void draw_attention(ViewContext& view, Settings& s) {
 void draw_buttons(ViewContext& view) {
   ImGui::BeginDisabled(!view.can_undo);
   if (ImGui::Button("Undo")) view.act(Action::undo);
-  note_place(view, "undo");
+  log_place(view, "undo");
   ImGui::EndDisabled();
-  explain(with_key("Undo", Action::undo));
+  explain(with_key("Undo a change of settings", Action::undo));
   ImGui::SameLine();
   ImGui::BeginDisabled(!view.can_redo);
   if (ImGui::Button("Redo")) view.act(Action::redo);
-  note_place(view, "redo");
+  log_place(view, "redo");
   ImGui::EndDisabled();
-  explain(with_key("Redo", Action::redo));
+  explain(with_key("Redo a change of settings", Action::redo));
   ImGui::SameLine();
   if (ImGui::Button("Reset")) copy_compared(Settings{}, view.state.edited());
-  explain("The default settings; can be undone");
+  explain("Restores the default settings; can be undone");
   ImGui::SameLine();
   if (ImGui::Button("File…")) view.act(Action::save_settings);
   explain(with_key("Save or load settings as TOML", Action::save_settings));
   if (ImGui::Button("Copy command line")) view.act(Action::copy_command);
-  explain(with_key("The command that computes what is shown without a window", Action::copy_command));
-  note_place(view, "copy");
+  explain(with_key("Copies the saccade run command that computes this result without a window",
+                   Action::copy_command));
+  log_place(view, "copy");
 }
 
 }  // namespace
@@ -99,9 +104,9 @@ void draw_tuning_panel(ViewContext& view) {
     explain(with_key("Swap A and B", Action::swap_sides));
   }
   Settings& s = view.state.edited();
-  named_row("Model", "What gives each pixel its saliency");
+  named_row("Model", "The saliency model");
   word_combo("##model", choices_of("model"), s.model);
-  note_place(view, "model");
+  log_place(view, "model");
   draw_operator(view, s);
   draw_attention(view, s);
   ImGui::Dummy({0, view.px(2)});

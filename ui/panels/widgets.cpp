@@ -22,7 +22,7 @@ void draw_icon(ImDrawList& draw, Icon icon, ImVec2 c, float r, unsigned colour) 
     case Icon::pause:
       bar(draw, c.x - r * 0.5F, c, r, thin, colour);
       return bar(draw, c.x + r * 0.5F, c, r, thin, colour);
-    case Icon::step_on:
+    case Icon::step_forward:
       triangle(draw, {c.x + r * 0.25F, c.y}, r * 0.85F, 1, colour);
       return bar(draw, c.x - r * 0.85F, c, r * 0.85F, thin * 0.8F, colour);
     case Icon::step_back:
@@ -105,9 +105,9 @@ std::string with_key(const std::string& text, Action action) {
   return key.empty() ? text : text + " (" + key + ")";
 }
 
-void note_place(ViewContext& view, const char* name) { note_place(view, place_of_item(name)); }
+void log_place(ViewContext& view, const char* name) { log_place(view, place_of_item(name)); }
 
-void note_place(ViewContext& view, const ItemPlace& place) {
+void log_place(ViewContext& view, const ItemPlace& place) {
   view.places[place.name] = {place.low.x, place.low.y, place.high.x, place.high.y};
 }
 

@@ -13,24 +13,24 @@
 
 namespace saccade {
 
-/// Icons that are drawn, so that no font has to have them.
-enum class Icon { play, pause, step_back, step_on, loop, first, last, record, camera };
+/// Icons, drawn as shapes, so that they need no font.
+enum class Icon { play, pause, step_back, step_forward, loop, first, last, record, camera };
 
-/// A square button of one frame's height; `lit` marks one that is switched on.
+/// A square button; `lit` marks one that is switched on.
 bool icon_button(ViewContext& view, const char* id, Icon icon, bool lit, const std::string& tip);
 
-/// A row of exclusive choices; returns true if `chosen` changed.
+/// A row of exclusive choices; true if `chosen` changed.
 bool segments(ViewContext& view, const char* id, const std::vector<std::string>& names, int& chosen);
 
 /// A combo box over words; true if `word` changed.
 bool word_combo(const char* id, const std::vector<std::string>& words, std::string& word);
 
-/// A text for explain() with the key of an action.
-std::string with_key(const std::string& text, Action action);
+/// A text for explain() with the keys of an action: "Play (Space)".
+[[nodiscard]] std::string with_key(const std::string& text, Action action);
 
-/// Remembers where the item before is.
-void note_place(ViewContext& view, const char* name);
-void note_place(ViewContext& view, const ItemPlace& place);
+/// Puts the place of the last item, or `place`, into the window's log.
+void log_place(ViewContext& view, const char* name);
+void log_place(ViewContext& view, const ItemPlace& place);
 
 /// As ImGui's OpenGL backend takes it.
 inline ImTextureID as_imgui(TextureId id) {

@@ -10,7 +10,7 @@ void check_size(const Frame& frame, cv::Size size, const char* who) {
   if (frame.size() != size) throw std::invalid_argument(std::string(who) + ": images of one size expected");
 }
 
-// Points of a depth image, with the rays of its columns and rows worked out once.
+// The points of a depth image; the rays of its columns and rows are computed once.
 class Points {
  public:
   explicit Points(const cv::Mat1f& depth_mm, const Intrinsics& camera) : depth_(depth_mm) {

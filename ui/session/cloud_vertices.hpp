@@ -11,20 +11,20 @@
 
 namespace saccade {
 
-/// A point as the graphics card gets it: 20 bytes without gaps.
+/// A point in the layout of the graphics card: 20 bytes without gaps.
 struct CloudVertex {
   std::array<float, 3> position_mm;    ///< camera frame
   std::array<std::uint8_t, 4> colour;  ///< red, green, blue, opaque
-  std::array<std::int8_t, 4> normal;   ///< unit * 127; (0,0,0) = none; the last is not used
+  std::array<std::int8_t, 4> normal;   ///< unit vector * 127; (0,0,0) = none; the last is unused
 };
 
-/// What gives the points their colour.
+/// Source of the points' colours.
 enum class CloudColour { image, depth, saliency };
 
-/// How a person wants to see the cloud.
+/// The user's choices for the cloud.
 struct CloudStyle {
   CloudColour colour = CloudColour::image;
-  bool lit = true;          ///< with light, for which normals are needed
+  bool lit = true;          ///< shaded, which needs normals
   bool needles = false;     ///< short lines along the normals
   bool fixations = true;    ///< numbered markers with their positions
   float point_size = 1.3F;  ///< 1 = a point covers what its pixel covers
@@ -33,23 +33,22 @@ struct CloudStyle {
 constexpr float kSmallestPoint = 0.5F, kLargestPoint = 4;
 
 /// The colour of each pixel's point, BGR: the frame's image (its depth where it has none), its depth, or the
-/// strength of the map (smooth_for_looking(); empty = as if it were 0 everywhere), all as in the overlay.
-cv::Mat3b cloud_colours(CloudColour by, const Frame& frame, const cv::Mat1f& smooth,
-                        const OverlayStyle& style);
+/// strength of the map (smooth_for_looking(); an empty one counts as 0), all as in the overlay.
+[[nodiscard]] cv::Mat3b cloud_colours(CloudColour by, const Frame& frame, const cv::Mat1f& smooth,
+                                      const OverlayStyle& style);
 
 /// Normals by central differences of the points left, right, above and below, towards the camera; (0,0,0)
-/// where one of them has no reading or is more than 2 % of the depth nearer or farther. Rough and quick: for
-/// the look, where the operator's own normals were not asked for.
-cv::Mat3f rough_normals(const cv::Mat1f& depth_mm, const Intrinsics& camera);
+/// where one of them has no reading or is more than 2 % of the depth nearer or farther. Quick and rough: for
+/// display, where the operator's normals were not requested.
+[[nodiscard]] cv::Mat3f rough_normals(const cv::Mat1f& depth_mm, const Intrinsics& camera);
 
 /// The points of all pixels with a reading, row by row. colours: H x W. normals: H x W, (0,0,0) = none, or
-/// empty = none at all. Overwrites `vertices`, reusing its memory. Throws std::invalid_argument if sizes
-/// differ.
+/// empty. Overwrites `vertices`, reusing its memory. Throws std::invalid_argument if sizes differ.
 void build_cloud(const Frame& frame, const cv::Mat3b& colours, const cv::Mat3f& normals,
                  std::vector<CloudVertex>& vertices);
 
-/// Lines of `length_mm` along the normals of every `every`-th pixel in both directions: two vertices each.
-/// Overwrites `vertices`. Throws as build_cloud().
+/// Lines of `length_mm` along the normals of every `every`-th row and column: two vertices each. Overwrites
+/// `vertices`. Throws as build_cloud().
 void build_normal_lines(const Frame& frame, const cv::Mat3f& normals, int every, float length_mm,
                         std::vector<CloudVertex>& vertices);
 

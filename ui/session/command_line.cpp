@@ -25,7 +25,7 @@ std::string run_command_line(const std::string& source, const Settings& settings
     shown.frames = 1;
     shown.every = 1;
   }
-  // How the window itself runs is nothing to repeat.
+  // Settings of the window's own run do not belong into the command.
   shown.json = shown.quiet = false;
   shown.log_level = Settings{}.log_level;
   std::string line = "saccade run " + shell_word(source) + " --out out/view";

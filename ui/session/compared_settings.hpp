@@ -7,31 +7,32 @@
 
 namespace saccade {
 
-/// The settings that a person tunes: A's, and B's for comparison.
+/// The settings that the user tunes: A, and B for comparison.
 struct ComparedSettings {
   Settings a, b;
   bool operator==(const ComparedSettings& other) const;
 };
 
 /// True if both print the same values for every setting.
-bool same_settings(const Settings& a, const Settings& b);
+[[nodiscard]] bool same_settings(const Settings& a, const Settings& b);
 
-/// Whether A and B have the setting each for itself: those of model and attention. A's value of every other
-/// one, which concerns source and program, holds for both.
-bool is_compared(const SettingSpec& spec);
+/// Whether A and B have a value each: so for the settings of model and attention. A's value of every other
+/// setting, which concerns source or program, holds for both.
+[[nodiscard]] bool is_compared(const SettingSpec& spec);
 
-/// Makes the tuned settings of `to` those of `from`; the others stay.
+/// Copies the settings that A and B have each (is_compared()); the others stay.
 void copy_compared(const Settings& from, Settings& to);
 
 void swap_sides(ComparedSettings& settings);
 
-/// Makes all settings of B that are not tuned those of A.
+/// Copies the other settings from A to B.
 void share_source(ComparedSettings& settings);
 
-/// Reads a TOML file into A, or into B: what the file does not say of the tuned settings becomes the default;
-/// what it says of camera and sensor holds for both sides. Returns the keys of the file that say something
-/// else than what holds and that a window does not take up while it runs, such as "workers". Throws as
-/// load_settings(); the settings are then as they were.
-std::vector<std::string> load_compared(ComparedSettings& settings, bool into_b, const std::string& path);
+/// Reads a TOML file into A, or into B. Settings that A and B have each and that the file does not mention
+/// get their defaults; camera and sensor hold for both sides. Returns the keys in the file that a running
+/// window cannot change, such as "workers", and whose values differ from the present ones. Throws as
+/// load_settings() and leaves the settings unchanged then.
+[[nodiscard]] std::vector<std::string> load_compared(ComparedSettings& settings, bool into_b,
+                                                     const std::string& path);
 
 }  // namespace saccade

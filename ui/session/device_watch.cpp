@@ -11,7 +11,7 @@ DeviceWatch::DeviceWatch(List list, std::function<void()> changed, std::chrono::
       period_(period),
       thread_([this](const std::stop_token& token) { work(token); }) {}
 
-DeviceWatch::~DeviceWatch() = default;  // the thread is asked to stop, and joined
+DeviceWatch::~DeviceWatch() = default;  // stops and joins the thread
 
 void DeviceWatch::set_active(bool active) {
   {

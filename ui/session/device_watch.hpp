@@ -13,31 +13,30 @@ namespace saccade {
 
 /// A sensor that is connected.
 struct DeviceChoice {
-  std::string name;    ///< for people
-  std::string source;  ///< what opens it
+  std::string name;    ///< for lists and messages
+  std::string source;  ///< SOURCE of the command line: "openni2:URI"
   std::string detail;  ///< vendor, driver; or why it cannot be opened
   bool operator==(const DeviceChoice&) const = default;
 };
 
-/// Looks which sensors are connected, again and again on a thread of its own, while somebody wants to know.
-/// Any thread.
+/// Lists the connected sensors periodically on a thread of its own, while it is active. Any thread.
 class DeviceWatch {
  public:
   using List = std::function<std::vector<DeviceChoice>()>;
 
-  /// `list` may throw; it is called on the watch's thread only. `changed` is called there after each look
-  /// that found something else than the one before.
+  /// Calls `list`, which may throw, on the watch's thread only, and `changed` there after each listing that
+  /// differs from the one before.
   DeviceWatch(List list, std::function<void()> changed,
               std::chrono::milliseconds period = std::chrono::seconds(1));
   ~DeviceWatch();
   DeviceWatch(const DeviceWatch&) = delete;
   DeviceWatch& operator=(const DeviceWatch&) = delete;
 
-  /// Whether it looks at all; it does not at first.
+  /// Starts or suspends the listing; suspended at first.
   void set_active(bool active);
 
   struct Seen {
-    std::optional<std::vector<DeviceChoice>> devices;  ///< none = not looked yet
+    std::optional<std::vector<DeviceChoice>> devices;  ///< none = not listed yet
     std::string error;                                 ///< why they could not be listed; empty = they could
     bool operator==(const Seen&) const = default;
   };

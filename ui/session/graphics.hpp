@@ -25,9 +25,8 @@ class PictureTexture {
   /// BGR, at least 1 x 1; replaces the picture that was there.
   virtual void upload(const cv::Mat3b& picture) = 0;
 
-  /// Enlarged pixels become squares (true) or are blended (false, as at first). Returns whether that is a
-  /// change.
-  virtual bool set_sharp(bool sharp) = 0;
+  /// Enlarged pixels become squares (true) or are blended (false, as at first).
+  virtual void set_sharp(bool sharp) = 0;
 
   /// 0 before the first upload().
   [[nodiscard]] virtual TextureId id() const = 0;
@@ -51,9 +50,6 @@ class CloudPicture {
   /// Returns its texture, bottom row first, which stays valid until the next call.
   virtual TextureId render(const CloudFrame& frame, const CloudStyle& style, const OrbitCamera& camera,
                            cv::Size size, bool light_theme) = 0;
-
-  /// Whether the last render() drew.
-  [[nodiscard]] virtual bool renewed() const = 0;
 };
 
 /// Makes pictures on the graphics card.

@@ -8,7 +8,7 @@
 namespace saccade {
 namespace {
 
-constexpr int kNice = 5;  // computation steps back when the window has something to do
+constexpr int kNicer = 5;  // than the window: computation steps back when there is something to draw
 
 bool same_frame(const Frame& a, const Frame& b) {
   return a.index == b.index && a.timestamp_us == b.timestamp_us && a.size() == b.size();
@@ -24,7 +24,7 @@ Intrinsics camera_of(const Frame& frame, const Settings& settings) {
 
 }  // namespace
 
-// Results that nobody holds any more, to be filled again.
+// Keeps results that nobody holds any more, with their memory, for later frames.
 class InteractiveProcessor::Pool {
  public:
   static std::shared_ptr<ViewResult> take(const std::shared_ptr<Pool>& pool) {
@@ -71,14 +71,15 @@ void InteractiveProcessor::stop() {
 }
 
 void InteractiveProcessor::start(const Settings& settings) {
-  ::setpriority(PRIO_PROCESS, 0, kNice);  // of this thread, and so of those that it starts
+  // For this thread, and thereby for those that it starts.
+  ::setpriority(PRIO_PROCESS, 0, ::getpriority(PRIO_PROCESS, 0) + kNicer);
   const std::lock_guard lock(mutex_);
   workers_ = std::make_unique<WorkerPool>(worker_count(settings));
   for (std::unique_ptr<ModelRunner>* runner : {&a_, &b_, &draft_a_, &draft_b_})
     *runner = std::make_unique<ModelRunner>(*workers_);
 }
 
-// The newest request; false if they ask for nothing that is not published yet.
+// The newest request; false if its result of this frame is published already.
 bool InteractiveProcessor::take_request(const Frame& frame, ComputeRequest& request,
                                         std::int64_t& generation) {
   const std::lock_guard lock(mutex_);
@@ -87,7 +88,7 @@ bool InteractiveProcessor::take_request(const Frame& frame, ComputeRequest& requ
   return !stopped_ && (!last_ || last_->generation != generation || !same_frame(last_->frame(), frame));
 }
 
-// From here on what is computed may be given up; false if it is to be given up already.
+// From now on a newer request interrupts the computation; false if there is one already.
 bool InteractiveProcessor::begin_slow(std::int64_t generation) {
   const std::lock_guard lock(mutex_);
   slow_ = generation == generation_;
@@ -126,11 +127,10 @@ void InteractiveProcessor::process(Result& result) {
       result.times = whole->a.result.times;
       known_ = last_ = whole;
       hooks_.publish(whole);
-    } catch (const WorkerPool::Interrupted&) {  // there are newer request, or none at all
+    } catch (const WorkerPool::Interrupted&) {  // there is a newer request, or the end has come
     }
     end_slow();
   }
-  hooks_.ended();
 }
 
 std::shared_ptr<ViewResult> InteractiveProcessor::compute(const Result& result, const ComputeRequest& request,

@@ -1,47 +1,39 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <mutex>
-#include <optional>
 
 #include "pipeline/processor.hpp"
+#include "ui/session/compute_request.hpp"
 #include "ui/session/model_runner.hpp"
 #include "ui/session/view_result.hpp"
 
 namespace saccade {
 
-/// What is to be computed of each frame.
-struct ComputeRequest {
-  Settings a;                 ///< its intrinsics, if there are any, take the place of the frame's
-  std::optional<Settings> b;  ///< a second computation of the same frame
-  RequestedOutputs outputs;   ///< by-products of both, where the model has them
-};
-
 /// A processor whose settings may change between frames: each frame is computed with the newest request, and
-/// what a change does not concern is kept. Where new request take long, a draft comes first (draft_of()), and
-/// what is computed is given up as soon as it is not wished for any more. A frame that cannot be computed is
-/// no end: its result says why.
-/// Thread safety: process() on one thread, the others on any.
+/// results that a change does not affect are kept. Where a new request takes long, a draft comes first
+/// (draft_of()); a newer request ends the computation of an old one. A frame that cannot be computed does not
+/// end the run: its result says why. Thread safety: process() on one thread, the others on any.
 class InteractiveProcessor final : public FrameProcessor {
  public:
   struct Hooks {
-    std::function<void()> begun;                               ///< process() has taken up a frame
-    std::function<void(std::shared_ptr<ViewResult>)> publish;  ///< a draft of it, or all of it
-    std::function<void()> ended;                               ///< process() is through with it
+    std::function<void()> begun;                               ///< process() has begun with a frame
+    std::function<void(std::shared_ptr<ViewResult>)> publish;  ///< a draft of it, or the whole result
   };
 
   InteractiveProcessor(ComputeRequest request, std::int64_t generation, Hooks hooks);
   ~InteractiveProcessor() override;
 
-  /// For the frames that process() takes up from now on, and for the one that it is at, if that takes long.
+  /// Holds for all later frames, and for the present one if that takes long. Results carry `generation`.
   void set_compute_request(ComputeRequest request, std::int64_t generation);
 
-  /// process() ends soon, and from now on at once.
+  /// Ends process() soon, and every later call at once.
   void stop();
 
-  /// What is computed goes to Hooks::publish, unless it is the same as the last time: the same frame, and
-  /// nothing else was wished for. Of `result` only the times are filled.
+  /// Publishes the results of the frame, unless frame and request are those of the last result. Fills only
+  /// the times of `result`.
   void process(Result& result) override;
 
  private:
@@ -59,13 +51,13 @@ class InteractiveProcessor final : public FrameProcessor {
   std::mutex mutex_;
   ComputeRequest request_;               // guarded by mutex_
   std::int64_t generation_ = 0;          // guarded by mutex_
-  bool slow_ = false, stopped_ = false;  // guarded by mutex_; slow_: new request end what is computed
-  std::unique_ptr<WorkerPool> workers_;  // made by process() under mutex_, interrupted and resumed under it
+  bool slow_ = false, stopped_ = false;  // guarded by mutex_; slow_: a new request interrupts the computation
+  std::unique_ptr<WorkerPool> workers_;  // made, interrupted and resumed under mutex_
   // process()'s thread only:
   std::unique_ptr<ModelRunner> a_, b_, draft_a_, draft_b_;
   std::shared_ptr<Pool> results_;
-  std::shared_ptr<const ViewResult> last_;   // the whole one that was published last
-  std::shared_ptr<const ViewResult> known_;  // the last one: what it has need not be computed again
+  std::shared_ptr<const ViewResult> last_;   // the last whole result
+  std::shared_ptr<const ViewResult> known_;  // the last result, also a draft: its maps can be taken over
 };
 
 }  // namespace saccade

@@ -25,8 +25,7 @@ void copy_attention(const Attention& from, Attention& to) {
 
 bool has_maps(const Computed& of, Settings settings, RequestedOutputs outputs) {
   settings.last_level = last_level_for(settings, of.result.frame.size());
-  return of.error.empty() && same_values(SettingScope::model, of.settings, settings) &&
-         of.outputs.levels == outputs.levels && of.outputs.normals == outputs.normals;
+  return of.error.empty() && same_values(SettingScope::model, of.settings, settings) && of.outputs == outputs;
 }
 
 void ModelRunner::compute(const Settings& wanted, RequestedOutputs outputs, const Computed* last,

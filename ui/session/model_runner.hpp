@@ -9,16 +9,16 @@
 
 namespace saccade {
 
-/// What computes one side of a ViewResult: one model and one selector, remade when the settings say so. One
-/// thread at a time.
+/// Computes one side of a ViewResult with one model and one selector, which it makes again when their
+/// settings change. One thread at a time.
 class ModelRunner {
  public:
   /// `pool` must outlive it.
   explicit ModelRunner(WorkerPool& pool) : pool_(pool) {}
 
-  /// Fills `out`, of which result.frame is filled. What cannot be computed is told in out.error. `last`, if
-  /// not null, is a result of the same frame by any runner: what the settings leave as it was is taken from
-  /// it, which gives the same as computing it again. Throws WorkerPool::Interrupted.
+  /// Computes out.result.frame and fills the rest of `out`; a failure is reported in out.error. `last`, if
+  /// not null, is a result of the same frame by any runner: its maps, and its attention, are copied where the
+  /// settings have not changed, which gives the same as computing them. Throws WorkerPool::Interrupted.
   void compute(const Settings& settings, RequestedOutputs outputs, const Computed* last, Computed& out);
 
  private:
@@ -31,13 +31,12 @@ class ModelRunner {
   Settings made_;
 };
 
-/// Whether the maps of `of` are those that these settings give for its frame, with all by-products that are
-/// wanted.
-bool has_maps(const Computed& of, Settings settings, RequestedOutputs outputs);
+/// Whether `of` holds the maps that these settings give for its frame, with the requested by-products.
+[[nodiscard]] bool has_maps(const Computed& of, Settings settings, RequestedOutputs outputs);
 
-/// The settings of a first draft for images of this size, of at most about 50 ms of the operator on two
-/// processors: windows of about the same size on the image, from coarser levels with smaller kernels. None if
-/// the settings themselves take no longer, or their model has no levels.
-std::optional<Settings> draft_of(Settings settings, cv::Size image);
+/// Settings for a draft that the operator computes within about 50 ms on two processors: coarser levels with
+/// smaller kernels, so that the windows cover about the same part of the image. None if the settings
+/// themselves are as quick, or their model has no levels.
+[[nodiscard]] std::optional<Settings> draft_of(Settings settings, cv::Size image);
 
 }  // namespace saccade

@@ -8,8 +8,8 @@
 
 namespace saccade {
 
-/// The eye that looks at a point cloud: it goes round a target on a sphere. The world is the sensor's camera
-/// frame: mm, x right, y down, z forward. Pointer positions and sizes are pixels of the viewport, y down.
+/// The virtual camera of the point cloud: its eye orbits a target on a sphere. The world is the sensor's camera
+/// frame: mm, x right, y down, z forward. Pointer positions and sizes are viewport pixels, y down.
 class OrbitCamera {
  public:
   static constexpr double kNearest_mm = 50, kFarthest_mm = 50'000;
@@ -17,19 +17,17 @@ class OrbitCamera {
   OrbitCamera() = default;
   bool operator==(const OrbitCamera&) const = default;
 
-  /// The sensor's own view: the eye where the sensor is, the whole image in sight, the target straight ahead
-  /// at `target_mm`.
-  static OrbitCamera at_sensor(const Intrinsics& camera, cv::Size image, double target_mm);
+  /// The sensor's own view: the eye at the sensor, the whole image visible, the target at `target_mm` ahead.
+  [[nodiscard]] static OrbitCamera at_sensor(const Intrinsics& camera, cv::Size image, double target_mm);
 
-  /// Turns the scene with a drag: half a turn for the height of the viewport. The eye does not go over the
-  /// poles.
+  /// Rotates the scene with a drag: half a turn for the height of the viewport, without crossing the poles.
   void orbit(cv::Point2d drag_px, cv::Size viewport);
 
-  /// Moves the scene with a drag; what is as far as the target follows the pointer.
+  /// Moves the scene with a drag; points at the distance of the target follow the pointer.
   void pan(cv::Point2d drag_px, cv::Size viewport);
 
-  /// Comes nearer (steps > 0) or goes away, a tenth of the distance a step; what is under the pointer and as
-  /// far as the target stays under the pointer.
+  /// Moves the eye nearer (steps > 0) or away, by a tenth of the distance per step; a point at the distance
+  /// of the target stays under the pointer.
   void zoom(double steps, cv::Point2d pointer_px, cv::Size viewport);
 
   cv::Vec3d eye_mm() const { return target_ - distance_ * forward(); }
@@ -42,11 +40,11 @@ class OrbitCamera {
   /// Eye space to clip space of OpenGL; row by row.
   cv::Matx44d projection(cv::Size viewport) const;
 
-  /// How many pixels 1 mm takes at 1 mm from the eye: size on screen = this * size / distance.
-  double focal_px(cv::Size viewport) const;
+  /// The focal length in pixels: size on screen = this * size / distance.
+  [[nodiscard]] double focal_px(cv::Size viewport) const;
 
-  /// Where a point of the world is in the viewport; none if it is behind the eye.
-  std::optional<cv::Point2d> project(const cv::Point3d& point_mm, cv::Size viewport) const;
+  /// The place of a point of the world in the viewport; none if it is behind the eye.
+  [[nodiscard]] std::optional<cv::Point2d> project(const cv::Point3d& point_mm, cv::Size viewport) const;
 
  private:
   cv::Vec3d forward() const;

@@ -10,7 +10,7 @@ cv::Point2f place(const PictureView& view, double col, double row) {
   return view.to_panel({col + 0.5, row + 0.5});
 }
 
-// A light line on a dark one is seen on any picture.
+// A light line on a dark one is visible on any picture.
 void add_line(OverlayShapes& shapes, std::vector<cv::Point2f> points, bool closed, float width, Rgba colour) {
   shapes.lines.push_back({points, closed, width + 1.5F, kShadow});
   shapes.lines.push_back({std::move(points), closed, width, colour});

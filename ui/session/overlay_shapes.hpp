@@ -17,7 +17,7 @@ struct Rgba {
   bool operator==(const Rgba&) const = default;
 };
 
-/// What is drawn over a picture, in pixels of the panel, in the order of drawing.
+/// The drawings over a picture, in pixels of the panel, in the order of drawing.
 struct OverlayShapes {
   struct Line {
     std::vector<cv::Point2f> points;
@@ -35,12 +35,12 @@ struct OverlayShapes {
   std::vector<Mark> marks;  ///< filled dark, the first fixation last
 };
 
-/// Outlines, scan path and numbered fixations of a result as the style asks for them, where `view` shows
-/// them. `unit` is the size of a pixel of a screen of usual density. A pure function.
-OverlayShapes overlay_shapes(const Computed& computed, const OverlayStyle& style, const PictureView& view,
-                             double unit);
+/// The outlines, scan path and numbered fixations of a result that the style asks for, at their places in
+/// `view`. `unit` is the size of a pixel of a screen of usual density.
+[[nodiscard]] OverlayShapes overlay_shapes(const Computed& computed, const OverlayStyle& style,
+                                           const PictureView& view, double unit);
 
-/// The index of the fixation whose mark is under `pointer`, the one on top if there are several; -1 = none.
-int mark_under(const OverlayShapes& shapes, cv::Point2d pointer);
+/// The index of the fixation whose mark is under `pointer`, of the topmost one; -1 = none.
+[[nodiscard]] int mark_under(const OverlayShapes& shapes, cv::Point2d pointer);
 
 }  // namespace saccade

@@ -33,7 +33,7 @@ double PictureView::fitting_scale() const {
   return std::min({panel_.width / picture_.width, panel_.height / picture_.height, kLargestZoom});
 }
 
-// The middle of the panel stays on the picture, so that it cannot get lost.
+// The middle of the panel stays on the picture.
 void PictureView::keep_in_sight() {
   centre_.x = std::clamp(centre_.x, 0.0, picture_.width);
   centre_.y = std::clamp(centre_.y, 0.0, picture_.height);

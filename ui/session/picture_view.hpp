@@ -4,24 +4,24 @@
 
 namespace saccade {
 
-/// Which part of a picture is seen in a panel: zoom and pan. Points of the panel are in its own pixels from
-/// its top-left corner; points of the picture are continuous, pixel (r, c) covers c..c+1, r..r+1.
+/// Zoom and pan of a picture in a panel. Points of the panel are in its own pixels from its top-left corner;
+/// points of the picture are continuous, pixel (r, c) covers c..c+1, r..r+1.
 class PictureView {
  public:
-  static constexpr double kLargestZoom = 64;  ///< panel pixels for a pixel of the picture
+  static constexpr double kLargestZoom = 64;  ///< panel pixels per pixel of the picture
 
-  /// The whole picture, as large as it fits, in the middle; also what a new view shows.
+  /// Shows the whole picture, as large as it fits, in the middle; a new view does too.
   void fit() { fitted_ = true; }
   bool fitted() const { return fitted_; }
 
-  /// Says how large both are; a fitted view follows, another keeps its centre and zoom.
+  /// Sets the sizes of both; a fitted view follows, another keeps its centre and zoom.
   void layout(cv::Size2d panel, cv::Size2d picture);
 
-  /// Zooms by `factor` so that what is under `about` stays there.
+  /// Zooms by `factor`; the point under `about` stays there.
   void zoom(double factor, cv::Point2d about);
   void pan(cv::Point2d drag);
 
-  double scale() const { return scale_; }  ///< panel pixels for a pixel of the picture
+  double scale() const { return scale_; }  ///< panel pixels per pixel of the picture
   cv::Point2d to_panel(cv::Point2d picture) const { return panel_centre() + (picture - centre_) * scale_; }
   cv::Point2d to_picture(cv::Point2d panel) const { return centre_ + (panel - panel_centre()) / scale_; }
 
@@ -31,7 +31,7 @@ class PictureView {
   void keep_in_sight();
 
   cv::Size2d panel_{1, 1}, picture_{1, 1};
-  cv::Point2d centre_{0.5, 0.5};  // of what is seen, in the picture
+  cv::Point2d centre_{0.5, 0.5};  // of the visible part, in the picture
   double scale_ = 1;
   bool fitted_ = true;
 };

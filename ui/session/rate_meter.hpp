@@ -6,15 +6,15 @@
 
 namespace saccade {
 
-/// How many a second come of something that is counted, over the last two seconds. One thread at a time.
+/// The rate of something that is counted, over the last two seconds. One thread at a time.
 class RateMeter {
  public:
   using Time = std::chrono::steady_clock::time_point;
 
-  /// `total` have come up to `now`, which does not go back. A smaller total than before begins anew.
+  /// The count is `total` at `now`, which does not go back. A smaller total than before starts again.
   void count(std::int64_t total, Time now);
 
-  double rate_hz() const;  ///< 0 = nothing comes, or it is not known yet
+  [[nodiscard]] double rate_hz() const;  ///< 0 = nothing comes, or not known yet
 
  private:
   struct Count {

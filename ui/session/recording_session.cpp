@@ -9,7 +9,7 @@ namespace {
 
 using Phase = RecordingStatus::Phase;
 
-constexpr std::size_t kQueueFrames = 30;  // a second of a camera, for when the disk is busy
+constexpr std::size_t kQueueFrames = 30;  // one second at 30 Hz, while the disk is busy
 
 std::string message_of(const std::exception_ptr& error) {
   try {
@@ -70,7 +70,7 @@ void RecordingSession::close_in_background(std::unique_ptr<Recording> recording)
     }
     const std::lock_guard lock(mutex_);
     note(*closing, status_);
-    if (status_.error.empty()) status_.error = error;  // the first is the one that matters
+    if (status_.error.empty()) status_.error = error;  // else the first one stays
     status_.phase = Phase::idle;
   });
 }

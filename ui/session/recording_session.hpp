@@ -15,38 +15,37 @@
 
 namespace saccade {
 
-/// How a recording is doing, for people to see.
+/// The state of a recording, for display.
 struct RecordingStatus {
   enum class Phase { idle, recording, closing };
   Phase phase = Phase::idle;
-  std::filesystem::path file{};  ///< of this recording or, when idle, of the last one; empty = there was none
+  std::filesystem::path file{};  ///< of this recording or, when idle, of the last one; empty = none yet
   double seconds = 0;            ///< since its start, wall time
   std::uint64_t frames = 0;      ///< written
-  std::uint64_t dropped = 0;     ///< because the disk was too slow
+  std::uint64_t dropped = 0;     ///< the disk was too slow for them
   std::uint64_t bytes = 0;
   std::optional<std::uint64_t> free_bytes{};  ///< of the disk; none = not known
   std::string error{};                        ///< why the last one ended early; empty = it did not
 };
 
-/// Records what the capture thread sees while a person wants it, to .oni files. start(), stop() and status()
-/// are for the thread that draws and never wait for the disk to take frames; offer() is for the capture
-/// thread.
+/// Records the frames of the capture thread to .oni files. The thread that draws calls start(), stop() and
+/// status(), which never wait for frames to be written; the capture thread calls offer().
 class RecordingSession {
  public:
   RecordingSession() = default;
-  /// Closes a running recording properly.
+  /// Closes a running recording.
   ~RecordingSession();
   RecordingSession(const RecordingSession&) = delete;
   RecordingSession& operator=(const RecordingSession&) = delete;
 
-  /// Begins `file`. Throws Error: it exists, or cannot be made; std::logic_error unless idle.
+  /// Creates `file`. Throws Error if it exists or cannot be created; std::logic_error unless idle.
   void start(const std::filesystem::path& file, const OniWriterOptions& options);
 
-  /// Ends the recording; its file is closed in the background, see status(). Nothing if none is running.
+  /// Ends the recording and closes its file in the background, see status(). Does nothing if none is running.
   void stop();
 
-  /// Takes a copy of the frame if a recording is running; drops and counts it if the disk is behind. A frame
-  /// that is not later than the one before (after a seek, or a loop) is put `kPeriod_us` after it.
+  /// Copies the frame if a recording is running; drops and counts it if the disk is behind. Stores a frame
+  /// that is not later than the one before (after a seek or a loop) `kPeriod_us` after it.
   void offer(const Frame& frame) noexcept;
 
   RecordingStatus status() const;
@@ -68,7 +67,7 @@ class RecordingSession {
 
   mutable std::mutex mutex_;
   std::unique_ptr<Recording> recording_;  // guarded by mutex_, as is all below
-  RecordingStatus status_;                // what does not come from recording_
+  RecordingStatus status_;                // without the part that comes from recording_
   std::jthread closer_;
 };
 

@@ -2,7 +2,7 @@
 
 namespace saccade {
 
-void take_request(SensorSettings& settings, const SensorValues& wanted, const SensorValues& now) {
+void store_request(SensorSettings& settings, const SensorValues& wanted, const SensorValues& now) {
   if (wanted.registration) settings.registration = *wanted.registration;
   if (wanted.mirror) settings.mirror = *wanted.mirror;
   if (wanted.auto_white_balance) settings.auto_white_balance = *wanted.auto_white_balance;

@@ -10,7 +10,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr int kSlots = 4;  // one captured, one waiting, one computed, one looked at
+constexpr int kSlots = 4;  // one each: captured, waiting, computed, shown
 
 }  // namespace
 
@@ -136,22 +136,19 @@ void Session::run(const OpenRequest& request) {
   };
 
   std::unique_lock lock(mutex_);
-  if (to_open_ || stopping_) return;  // this is not wanted any more
+  if (to_open_ || stopping_) return;  // another source is wanted, or none
   auto processor = std::make_unique<InteractiveProcessor>(
       compute_request_, generation_,
-      InteractiveProcessor::Hooks{[this] {
-                                    playback_->taken();
-                                    set_computing(true);
-                                  },
-                                  [this](std::shared_ptr<ViewResult> result) { publish(std::move(result)); },
-                                  [this] { set_computing(false); }});
-  InteractiveProcessor* const computing = processor.get();
+      InteractiveProcessor::Hooks{
+          [this] { playback_->taken(); },
+          [this](std::shared_ptr<ViewResult> result) { publish(std::move(result)); }});
+  InteractiveProcessor* const processing = processor.get();
   state_.source = info;
   state_.phase = SessionState::Phase::open;
   Pipeline pipeline(std::make_unique<PacedSource>(std::move(source), playback_, request.range),
                     std::move(processor), std::move(options));
   pipeline_ = &pipeline;
-  processor_ = computing;
+  processor_ = processing;
   controls_ = controls;
   lock.unlock();
   wake_();
@@ -164,7 +161,6 @@ void Session::run(const OpenRequest& request) {
   }
   lock.lock();
   if (!to_open_) state_.ledger = pipeline.ledger();
-  state_.computing = false;
   pipeline_ = nullptr;
   processor_ = nullptr;
   controls_ = nullptr;
@@ -172,17 +168,12 @@ void Session::run(const OpenRequest& request) {
   if (error) std::rethrow_exception(error);
 }
 
-// Results are published by the processor; here their slots go back, and errors come out.
+// The processor publishes results; this loop returns their slots and rethrows the pipeline's errors.
 void Session::consume(Pipeline& pipeline) {
   while (const ResultHandle result = pipeline.next()) {
     const std::lock_guard lock(mutex_);
     if (!to_open_) state_.latency = pipeline.latency();
   }
-}
-
-void Session::set_computing(bool computing) {
-  const std::lock_guard lock(mutex_);
-  state_.computing = computing && !to_open_;
 }
 
 void Session::publish(std::shared_ptr<ViewResult> result) {
@@ -213,7 +204,7 @@ void Session::publish(std::shared_ptr<ViewResult> result) {
 void Session::change(const std::function<void(SessionState&)>& how) {
   {
     const std::lock_guard lock(mutex_);
-    if (to_open_) return;  // it is about a source that nobody wants any more
+    if (to_open_) return;  // about a source that is being replaced
     how(state_);
   }
   wake_();

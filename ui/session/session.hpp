@@ -17,34 +17,33 @@
 
 namespace saccade {
 
-/// What to open and which of its frames to play.
+/// A source to open and the frames of it to play.
 struct OpenRequest {
   std::string uri;
   PlayRange range{};
   SensorSettings sensor{};  ///< of live sensors
 };
 
-/// How a session is doing.
+/// The state of a session.
 struct SessionState {
   enum class Phase {
-    idle,     ///< nothing was asked for
+    idle,     ///< nothing was requested
     opening,  ///< the source is being opened
-    open,     ///< frames come, or could
-    ended,    ///< there are no more, or an error ended it
+    open,     ///< frames come, or may come
+    ended,    ///< no more frames, or an error
   };
   Phase phase = Phase::idle;
   std::string uri;         ///< of the newest request
-  SourceInfo source;       ///< if it could be opened
+  SourceInfo source;       ///< once it is open
   SourceState connection;  ///< of the source, while it is open
-  bool computing = false;  ///< a frame is being computed
   Ledger ledger;
   DurationHistogram latency;         ///< from capture to result, of this source
-  std::string error;                 ///< what ended it; one line
-  std::int64_t rejected_index = -1;  ///< the frame rejected last, and why
+  std::string error;                 ///< what ended it, one line; empty = no error
+  std::int64_t rejected_index = -1;  ///< the last rejected frame, and why
   std::string rejected_reason;
 };
 
-/// Of each computed frame, for plots over time.
+/// A computed frame, for plots over time.
 struct FrameRecord {
   std::int64_t index = 0;
   std::int64_t generation = 0;
@@ -54,42 +53,41 @@ struct FrameRecord {
   std::chrono::steady_clock::time_point at;
 };
 
-/// Everything of the viewer that computes or waits, on threads of its own: opens sources, plays them,
-/// computes what is wished for, and keeps the newest result. All functions may be called by any thread and
-/// return at once, the destructor excepted, which waits for what is being opened or computed.
+/// The part of the viewer that computes or waits, on threads of its own: opens sources, plays them, computes
+/// the newest request, and keeps the newest result. Any thread may call any function, and all return at once,
+/// except for the destructor, which waits for opening and computing to end.
 class Session {
  public:
   using Open = std::function<std::unique_ptr<FrameSource>(const std::string& uri, const SensorSettings&)>;
 
-  /// `wake` is called on any thread whenever there is something new to see.
+  /// Calls `wake` on any thread whenever there is something new to show.
   Session(Open open, std::function<void()> wake, ComputeRequest request);
   ~Session();
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
 
-  /// Closes what is open and opens this. Of several requests in a row only the newest counts.
+  /// Closes the open source and opens this one. Of several requests in a row only the newest counts.
   void open(OpenRequest request);
 
-  /// What is to be computed from now on; the frame that is shown is computed once more. Of several changes in
-  /// a row only the newest is computed. Returns the generation, which the results of it carry.
+  /// Holds from now on; the frame on screen is computed again. Of several requests in a row only the newest
+  /// is computed. Returns the generation that its results carry.
   std::int64_t set_compute_request(const ComputeRequest& request);
 
   PlaybackControls& playback() { return *playback_; }
   const PlaybackControls& playback() const { return *playback_; }
 
-  SessionState state() const;
+  [[nodiscard]] SessionState state() const;
 
-  /// The controls of the sensor that is open: see SensorControls. All empty, and without effect, where there
-  /// is none.
-  SensorValues sensor_values() const;
-  std::vector<SensorMode> sensor_modes() const;
+  /// The controls of the open sensor: see SensorControls. Empty, and without effect, where there is none.
+  [[nodiscard]] SensorValues sensor_values() const;
+  [[nodiscard]] std::vector<SensorMode> sensor_modes() const;
   void request_sensor(const SensorValues& wanted);
 
-  /// The newest result of the source that is open; null = none yet.
-  ViewResultPtr latest() const;
+  /// The newest result of the open source; null = none yet.
+  [[nodiscard]] ViewResultPtr latest() const;
 
-  /// The records of the frames computed, drafts excepted, since the last call, at most kMostRecords.
-  std::vector<FrameRecord> take_records();
+  /// The records of the frames computed since the last call, without drafts, at most kMostRecords.
+  [[nodiscard]] std::vector<FrameRecord> take_records();
   static constexpr std::size_t kMostRecords = 4096;
 
  private:
@@ -97,7 +95,6 @@ class Session {
   void run(const OpenRequest& request);
   void consume(Pipeline& pipeline);
   void stop_pipeline();
-  void set_computing(bool computing);
   void publish(std::shared_ptr<ViewResult> result);
   void change(const std::function<void(SessionState&)>& how);
 

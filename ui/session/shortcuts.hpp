@@ -8,9 +8,9 @@
 namespace saccade {
 
 // clang-format off
-/// Everything that a key does.
+/// Everything that a key or a button can do.
 enum class Action {
-  play_pause, step_back, step_on, jump_back, jump_on, first_frame, last_frame, slower, faster, toggle_loop,
+  play_pause, previous_frame, next_frame, back_10, forward_10, first_frame, last_frame, slower, faster, toggle_loop,
   kernel_down, kernel_up, next_model, previous_model, next_selector, undo, redo, copy_command,
   toggle_map, toggle_marks, toggle_path, toggle_outlines, toggle_background, next_palette, fit_picture,
   next_comparison, swap_sides, next_centre, toggle_sidebar, toggle_theme, open_source, save_settings,
@@ -18,7 +18,7 @@ enum class Action {
 };
 // clang-format on
 
-/// Keys that are no characters; a character is its own upper-case code.
+/// Keys without a character; a character is its own upper-case code.
 enum class Key : int { left = 0x100, right, home, end, f1, space = ' ' };
 constexpr Key key_of(char character) { return static_cast<Key>(character); }
 
@@ -27,19 +27,19 @@ struct Shortcut {
   Key key;
   bool ctrl = false, shift = false;
   std::string_view group;  ///< heading in the help
-  std::string_view text;   ///< what it does
+  std::string_view text;   ///< description in the help
 };
 
 /// All shortcuts, in the order of the help; an action may have several.
-std::span<const Shortcut> shortcuts();
+[[nodiscard]] std::span<const Shortcut> shortcuts();
 
-/// What a key does; none if it does nothing.
-std::optional<Action> action_of(Key key, bool ctrl, bool shift);
+/// The action of a key; none if it has none.
+[[nodiscard]] std::optional<Action> action_of(Key key, bool ctrl, bool shift);
 
 /// "Ctrl+Shift+Z".
-std::string key_name(const Shortcut& shortcut);
+[[nodiscard]] std::string key_name(const Shortcut& shortcut);
 
 /// The name of the first key of an action, for tool tips; empty if it has none.
-std::string key_name(Action action);
+[[nodiscard]] std::string key_name(Action action);
 
 }  // namespace saccade

@@ -10,25 +10,24 @@
 
 namespace saccade {
 
-/// Makes settings that see nothing on a source without depth give something there, and puts back what was
-/// chosen when a source with depth comes.
+/// Replaces settings that give nothing on a source without depth, and restores them when a source with depth
+/// is opened.
 class SourceFit {
  public:
-  /// For a source that was opened: where it has no depth, a model of the image takes the place of one that
-  /// needs depth, and the selector `wta` that of `proto`; where it has, what was exchanged comes back unless
-  /// something else was chosen since. Returns what a person should know of it and of the source, one line
-  /// each.
-  std::vector<std::string> fit(ComparedSettings& settings, const SourceInfo& source);
+  /// Adapts the settings to an open source. Without depth, a 2D model replaces one that needs depth, and the
+  /// selector `wta` replaces `proto`; with depth, the replaced choices come back unless the user has chosen
+  /// others since. Returns notes about this and about the source for the user, one line each.
+  [[nodiscard]] std::vector<std::string> fit(ComparedSettings& settings, const SourceInfo& source);
 
-  /// Puts back what fit() exchanged, for settings that are to be kept.
+  /// Restores what fit() replaced, for settings that are saved.
   void restore(ComparedSettings& settings);
 
  private:
-  struct Exchanged {
+  struct Replaced {
     std::optional<std::string> model;
     std::optional<Selector> selector;
   };
-  std::array<Exchanged, 2> exchanged_;  // of A and of B
+  std::array<Replaced, 2> replaced_;  // of A and of B
 };
 
 }  // namespace saccade

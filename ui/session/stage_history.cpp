@@ -13,7 +13,7 @@ double total_ms(const StageTimes& times) {
   return sum;
 }
 
-// The value that a share `p` of all does not exceed.
+// The smallest value that a share `p` of all values does not exceed.
 double percentile(std::vector<double>& values, double p) {
   const auto rank = static_cast<std::ptrdiff_t>(std::ceil(p * static_cast<double>(values.size()))) - 1;
   std::nth_element(values.begin(), values.begin() + rank, values.end());

@@ -10,36 +10,36 @@
 
 namespace saccade {
 
-/// A duration now and over the frames that are remembered, in ms; 0 if there are none.
+/// A duration in the last frame, and its percentiles over the remembered frames, in ms; 0 without frames.
 struct DurationSummary {
   double last_ms = 0, p50_ms = 0, p95_ms = 0;
 };
 
-/// The stage times and latencies of the last frames, for a panel that shows them. One thread at a time.
+/// The stage times and latencies of the last frames. One thread at a time.
 class StageHistory {
  public:
   using Clock = std::chrono::steady_clock;
   static constexpr std::size_t kStages = kStageNames.size();
 
-  /// Remembers so many frames, >= 1; throws std::invalid_argument otherwise.
+  /// Remembers `capacity` >= 1 frames; throws std::invalid_argument for less.
   explicit StageHistory(std::size_t capacity = 300);
 
-  /// Adds a frame whose result was there at `at`, `latency_ms` after it was captured. `at` does not go back.
+  /// Adds a frame whose result came at `at`, `latency_ms` after its capture. `at` does not go back.
   void add(const StageTimes& times, double latency_ms, Clock::time_point at);
   void clear() { frames_.clear(); }
   std::size_t size() const { return frames_.size(); }
   std::size_t capacity() const { return capacity_; }
 
-  DurationSummary stage(Stage stage) const;
-  DurationSummary total() const;  ///< of all stages of a frame
-  DurationSummary latency() const;
+  [[nodiscard]] DurationSummary stage(Stage stage) const;
+  [[nodiscard]] DurationSummary total() const;  ///< of all stages of a frame
+  [[nodiscard]] DurationSummary latency() const;
 
-  /// Frames a second over the frames of the last 2 s before `now`; 0 if they are fewer than two.
-  double rate_hz(Clock::time_point now) const;
+  /// Frames per second over the last 2 s before `now`; 0 if there are fewer than two.
+  [[nodiscard]] double rate_hz(Clock::time_point now) const;
 
-  /// For a stacked plot: of each frame, oldest first, the sums of the stages up to and including each, in ms.
+  /// For a stacked plot: for each frame, oldest first, the sums of the stages up to each stage, in ms.
   using Stack = std::array<float, kStages>;
-  std::vector<Stack> stacks() const;
+  [[nodiscard]] std::vector<Stack> stacks() const;
 
  private:
   struct Timing {

@@ -6,7 +6,7 @@
 namespace saccade {
 namespace {
 
-constexpr std::int64_t kMostFrames = 1 << 20;  // nobody plots more; it bounds what a wrong count can allocate
+constexpr std::int64_t kMostFrames = 1 << 20;  // bounds the memory that a wrong count can take
 
 }  // namespace
 

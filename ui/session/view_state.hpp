@@ -20,30 +20,30 @@ enum class Comparison { off, side_by_side, split };
 enum class Centre { picture, cloud, both };
 enum class Theme { dark, light };
 
-/// The sections of the side bar, each open or closed.
+/// The panels of the side bar, each open or closed.
 enum class SidebarPanel { tuning, display, probe, performance, sensors, count };
 constexpr std::size_t kSidebarPanels = static_cast<std::size_t>(SidebarPanel::count);
 
-/// Everything that a person set in the window and finds again the next time; neither ImGui nor OpenGL.
+/// The state of the window that persists between sessions.
 struct ViewState {
   ComparedSettings settings;
   OverlayStyle style;
   bool show_map = true;
   Comparison comparison = Comparison::off;
-  bool edit_b = false;   ///< the tuning panel edits B; of interest while comparing
+  bool edit_b = false;   ///< while comparing: the tuning panel edits B
   double divider = 0.5;  ///< of the split, share of the picture's width
   Centre centre = Centre::picture;
   CloudStyle cloud;
   Theme theme = Theme::dark;
-  double ui_scale = 0;  ///< 0 = what the screen says
+  double ui_scale = 0;  ///< 0 = the screen's own scale
   bool sidebar = true;
   double sidebar_width = 340;  ///< px at scale 1
   std::array<bool, kSidebarPanels> open = {true, true, false, false, false};
   cv::Size window{1280, 800};
   std::vector<std::string> recent;  ///< sources, newest first
 
-  bool& is_open(SidebarPanel section) { return open[static_cast<std::size_t>(section)]; }
-  bool is_open(SidebarPanel section) const { return open[static_cast<std::size_t>(section)]; }
+  bool& is_open(SidebarPanel panel) { return open[static_cast<std::size_t>(panel)]; }
+  bool is_open(SidebarPanel panel) const { return open[static_cast<std::size_t>(panel)]; }
 
   /// The settings that the tuning panel shows.
   Settings& edited() { return comparing() && edit_b ? settings.b : settings.a; }
@@ -52,29 +52,29 @@ struct ViewState {
 
 constexpr std::size_t kMostRecent = 8;
 
-/// Puts a source in front of the recent ones, once.
+/// Moves a source to the front of the recent ones.
 void remember_source(ViewState& state, const std::string& uri);
 
-/// The next of the models, palettes and selectors: `step` 1 or -1, around the end.
+/// The next model or palette, from the last one back to the first; `step` 1 or -1.
 void next_model(Settings& settings, int step);
 void next_palette(MapStyle& style);
 
-/// The names that a setting of words may have, e.g. of "model"; in the order of the help.
-std::vector<std::string> choices_of(std::string_view key);
+/// The possible values of a setting of words, such as "model", in the order of the help.
+[[nodiscard]] std::vector<std::string> choices_of(std::string_view key);
 
-/// Next size of a kernel that differs in the window: windows are odd, so 14 and 15 are the same.
-int next_kernel(int kernel, int steps);
+/// The kernel `steps` sizes further: windows are odd, so 14 and 15 are the same size.
+[[nodiscard]] int next_kernel(int kernel, int steps);
 
-/// The speeds of the player, slowest first; 0 = as fast as possible stands last.
-std::span<const double> play_speeds();
-double next_speed(double speed, int steps);
+/// The speeds of the player, slowest first; the last, 0, is as fast as possible.
+[[nodiscard]] std::span<const double> play_speeds();
+[[nodiscard]] double next_speed(double speed, int steps);
 
-/// ViewState as JSON text. What the text does not say, or says wrongly, stays as it is in `state`: an old or
-/// spoiled file of another version never keeps the window from opening.
-std::string view_state_json(const ViewState& state);
+/// ViewState as JSON text. Missing and bad values in the text leave `state` as it is, so that a file of
+/// another version or a damaged one never keeps the window from opening.
+[[nodiscard]] std::string view_state_json(const ViewState& state);
 void apply_view_state(ViewState& state, const std::string& json);
 
 /// $XDG_CONFIG_HOME/saccade or ~/.config/saccade; empty if neither is known.
-std::filesystem::path config_folder();
+[[nodiscard]] std::filesystem::path config_folder();
 
 }  // namespace saccade

@@ -24,7 +24,7 @@ std::string word(const std::array<std::string_view, N>& words, Enum value) {
   return std::string(words[static_cast<std::size_t>(value)]);
 }
 
-// Readers that leave `value` alone if the text has nothing fitting.
+// Readers that leave `value` unchanged if the text has no fitting one.
 void read(const Json& json, const char* key, bool& value) {
   if (const auto found = json.find(key); found != json.end() && found->is_boolean()) value = *found;
 }
@@ -59,8 +59,8 @@ Json range_json(const std::optional<ValueRange>& range) {
   return range ? Json{range->low, range->high} : Json();
 }
 
-// What the tuning panel sets; which frames and how the program runs is said anew each time. Default levels
-// are left out: to read them would make them chosen ones.
+// The settings of the tuning panel; those of frames and program do not persist. Default levels are left out:
+// reading them would make them explicitly chosen.
 Json settings_json(const Settings& settings) {
   Json json = Json::object();
   for (const SettingSpec& spec : setting_specs())
@@ -77,7 +77,7 @@ void read_settings(const Json& json, const char* key, Settings& settings) {
     try {
       apply_setting(settings, name, value.get<std::string>());
     } catch (const Error&) {
-      // Of another version: this one setting stays as it is.
+      // A file of another version: this setting stays as it is.
     }
   }
 }

@@ -1,4 +1,4 @@
-// What the shortcuts and the buttons do.
+// The actions of shortcuts and buttons.
 #include <imgui.h>
 
 #include "ui/session/command_line.hpp"
@@ -27,16 +27,16 @@ bool Viewer::act_on_playback(Action action) {
     case Action::play_pause:
       playback.toggle();
       return true;
-    case Action::step_back:
+    case Action::previous_frame:
       playback.step(-1);
       return true;
-    case Action::step_on:
+    case Action::next_frame:
       playback.step(1);
       return true;
-    case Action::jump_back:
+    case Action::back_10:
       playback.step(-kJump);
       return true;
-    case Action::jump_on:
+    case Action::forward_10:
       playback.step(kJump);
       return true;
     case Action::first_frame:
@@ -163,7 +163,7 @@ void Viewer::act_on_window(Action action) {
   }
 }
 
-// For both sides while comparing: a line each.
+// While comparing: a line for each side.
 void Viewer::copy_command() {
   const bool recorded = !view_.source.source.live && view_.result;
   const std::int64_t index = recorded ? view_.result->frame().index : -1;

@@ -1,4 +1,4 @@
-// Where the parts of the window are.
+// The layout of the window.
 #include <algorithm>
 
 #include <imgui.h>
@@ -79,7 +79,7 @@ void Viewer::draw_centre() {
     picture_.draw(view_);
     ImGui::EndChild();
   }
-  view_.over_picture = nullptr;  // the side bar, which is drawn later, says it anew
+  view_.over_picture = nullptr;  // the side bar, drawn later, sets it again
   if (both) ImGui::SameLine(0, view_.px(2));
   if (state_.centre != Centre::picture) {
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {view_.px(8), view_.px(7)});

@@ -15,13 +15,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr int kFramesAfterEvent = 3;  // ImGui's layout settles with the second, hovering with the third
-constexpr double kSlowRefresh_s = 0.25, kIdle_s = 60, kHeartbeat_s = 0.025;
-
-bool same_request(const ComputeRequest& x, const ComputeRequest& y) {
-  return same_settings(x.a, y.a) && x.b.has_value() == y.b.has_value() &&
-         (!x.b || same_settings(*x.b, *y.b)) && x.outputs.levels == y.outputs.levels &&
-         x.outputs.normals == y.outputs.normals;
-}
+constexpr double kRefresh_s = 0.25, kIdle_s = 60;
 
 }  // namespace
 
@@ -55,7 +49,7 @@ Viewer::Viewer(ViewState state, ViewerOptions options, Session::Open open_functi
 
 void Viewer::run() {
   while (!window_.should_close()) {
-    window_.wait(frames_due_ == 0 ? idle_s() : 0);
+    window_.wait(frames_due_ > 0 ? 0 : refresh_ ? kRefresh_s : kIdle_s);
     const auto begin = Clock::now();
     if (stopped_) window_.close();
     const bool event = window_.take_event();
@@ -64,7 +58,7 @@ void Viewer::run() {
       frames_due_ = kFramesAfterEvent;
     else if (woken)
       frames_due_ = std::max(frames_due_, view_.playback.paused ? kFramesAfterEvent : 1);
-    else if (refresh_ || computing())
+    else if (refresh_)
       frames_due_ = std::max(frames_due_, 1);
     poll();
     if (window_.hidden()) frames_due_ = 0;
@@ -73,7 +67,6 @@ void Viewer::run() {
     draw_frame();
     const double busy_ms = std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
     ++frames_;
-    drawn_at_ = begin;
     view_.busy_ms = busy_ms;
     view_.longest_ms = std::max(view_.longest_ms, busy_ms);
     log_frame(busy_ms);
@@ -87,22 +80,13 @@ void Viewer::stop() noexcept {
   Window::wake();
 }
 
-double Viewer::idle_s() const {
-  if (!computing()) return refresh_ ? kSlowRefresh_s : kIdle_s;
-  const double since_s = std::chrono::duration<double>(Clock::now() - drawn_at_).count();
-  return std::max(kHeartbeat_s - since_s, 1e-3);
-}
-
-// While it computes the window shows that it lives, however long that takes.
-bool Viewer::computing() const { return view_.source.computing || awaits_result(); }
-
-// A wish was sent and what it makes of the frame is on its way.
+// The result of the newest request is on its way.
 bool Viewer::awaits_result() const {
   return view_.source.phase == SessionState::Phase::open && view_.result &&
          (view_.result->generation < generation_ || view_.result->draft);
 }
 
-// What the session has for us; cheap, and done while the window is hidden too.
+// Takes over the session's news; cheap, and done while the window is hidden too.
 void Viewer::poll() {
   view_.source = session_.state();
   view_.playback = session_.playback().state();
@@ -168,23 +152,21 @@ void Viewer::draw_frame() {
   view_.outputs = {};
   view_.can_undo = history_.can_undo();
   view_.can_redo = history_.can_redo();
-  view_.renewed.clear();
   draw_window();
   share_source(state_.settings);
   history_.change(state_.settings);
   if (!ImGui::IsAnyItemActive()) history_.commit();
   send_compute_request();
   follow_sensor();
-  window_.end_frame(view_.colours->behind, view_.renewed, [this] { before_show(); });
+  window_.end_frame(view_.colours->behind, graphics_.take_renewed(), [this] { before_show(); });
 }
 
 void Viewer::send_compute_request() {
   if (state_.comparing() && same_settings(state_.settings.a, state_.settings.b) && !sent_.b)
-    state_.settings.b.kernel =
-        std::clamp(2 * state_.settings.a.kernel + 1, 3, 127);  // something to compare with
+    state_.settings.b.kernel = std::clamp(2 * state_.settings.a.kernel + 1, 3, 127);  // to have a difference
   ComputeRequest request{state_.settings.a, {}, view_.outputs};
   if (state_.comparing()) request.b = state_.settings.b;
-  if (same_request(request, sent_)) return;
+  if (request == sent_) return;
   const bool a_changed = !same_settings(request.a, sent_.a);
   generation_ = session_.set_compute_request(request);
   sent_ = std::move(request);
@@ -193,7 +175,7 @@ void Viewer::send_compute_request() {
   view_.timeline.age();
 }
 
-// An open sensor gets what was changed in its settings, by its controls, by undo or by a file.
+// Requests from an open sensor what has changed in its settings: by its controls, by undo or by a file.
 void Viewer::follow_sensor() {
   if (view_.source.phase != SessionState::Phase::open || !view_.source.source.live) return;
   const SensorSettings& wanted = state_.settings.a.sensor;
@@ -207,7 +189,7 @@ void Viewer::open(const std::string& uri) {
   OpenRequest request{uri, {}, state_.settings.a.sensor};
   sent_sensor_ = request.sensor;
   if (uri == options_.source.uri) request.range = options_.source.range;
-  sidebar_.sensors().end_recording();  // a file is of one source
+  sidebar_.sensors().end_recording();  // a recording holds one source
   session_.open(request);
   view_.result.reset();
   view_.timeline.reset(0);
@@ -218,7 +200,7 @@ void Viewer::open(const std::string& uri) {
   reported_error_.clear();
   if (!uri.empty()) remember_source(state_, uri);
   window_.set_title("Saccade: " + uri);
-  picture_.forget();
+  picture_.reset();
   cloud_.fit();
   frames_due_ = kFramesAfterEvent;
 }

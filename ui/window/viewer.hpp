@@ -22,32 +22,28 @@ namespace saccade {
 struct ViewerOptions {
   OpenRequest source;             ///< opened at the start; an empty uri opens nothing
   std::optional<cv::Size> size;   ///< of the window, instead of that of the last time
-  std::string screenshot;         ///< PNG to write and then to end; empty = stay
-  std::int64_t after_frames = 1;  ///< so many computed frames are waited for before the screenshot
-  std::string log;                ///< JSON lines of every frame of the window; empty = none
-  bool paused = false;            ///< starts with the first frame and waits
+  std::string screenshot;         ///< PNG file; the viewer ends once it is written; empty = none
+  std::int64_t after_frames = 1;  ///< computed frames before the screenshot
+  std::string log;                ///< file for a line of JSON per frame of the window; empty = none
+  bool paused = false;            ///< starts paused at the first frame
 };
 
-/// The window and all in it, on the thread that makes it. Computation is the session's; nothing here waits
-/// for it.
+/// The window and its contents, on the thread that makes it. The session computes; nothing here waits for it.
 class Viewer {
  public:
-  /// `state` as it was kept. Throws Error (failed) where there is no display or no OpenGL 3.3.
+  /// Starts with a saved `state`. Throws Error (failed) where there is no display or no OpenGL 3.3.
   Viewer(ViewState state, ViewerOptions options, Session::Open open, DeviceWatch::List list_sensors);
 
-  /// Until the window is closed, or the screenshot is written. Throws Error (failed) if the screenshot cannot
-  /// be made.
+  /// Runs until the window is closed or the screenshot is written. Throws Error (failed) if that is impossible.
   void run();
 
   /// Ends run() soon. Any thread.
   void stop() noexcept;
 
-  /// What a person set, to be kept.
-  const ViewState& state() const { return state_; }
+  /// The state to save.
+  [[nodiscard]] const ViewState& state() const { return state_; }
 
  private:
-  double idle_s() const;
-  bool computing() const;
   bool awaits_result() const;
   void poll();
   void poll_errors();
@@ -80,7 +76,7 @@ class Viewer {
   ViewContext view_;
   SettingsHistory history_;
   SourceFit fit_;
-  bool fitted_ = false;  // to the source that is open
+  bool fitted_ = false;  // to the open source
   PicturePanel picture_;
   CloudPanel cloud_;
   Sidebar sidebar_;
@@ -90,15 +86,14 @@ class Viewer {
   ComputeRequest sent_;
   SensorSettings sent_sensor_;
   RateMeter captured_;
-  std::int64_t generation_ = 0, a_since_ = 0;  // of the wishes sent last; since when A is what it is
+  std::int64_t generation_ = 0, a_since_ = 0;  // of the last request; of the first one with the present A
   double scale_ = 0;
   Theme theme_ = Theme::dark;
   int frames_due_ = 3;
-  bool refresh_ = false;  // something changes with time alone
+  bool refresh_ = false;  // something on screen changes with time
   std::string reported_error_;
   std::optional<LineFile> log_;
   std::int64_t frames_ = 0;
-  std::chrono::steady_clock::time_point drawn_at_{};
   int shot_countdown_ = 3;  // frames for the layout to settle
 };
 

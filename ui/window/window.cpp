@@ -23,7 +23,8 @@ std::string glfw_reason() {
   return text != nullptr ? text : "unknown reason";
 }
 
-// Letters by what stands on the key, keys without a character; other characters come as characters.
+// Keys of letters, by the letter on the key, and keys without a character; other characters come by the
+// character callback.
 std::optional<Key> key_pressed(int code, int scan) {
   switch (code) {
     case GLFW_KEY_LEFT:
@@ -43,7 +44,7 @@ std::optional<Key> key_pressed(int code, int scan) {
   }
   const char* name = glfwGetKeyName(code, scan);
   const bool ascii = name != nullptr && name[0] > 0 && name[1] == '\0';
-  const int character = ascii ? std::toupper(name[0]) : code;  // another alphabet: by its place
+  const int character = ascii ? std::toupper(name[0]) : code;  // another alphabet: by the place of the key
   if (character < 'A' || character > 'Z') return std::nullopt;
   return key_of(static_cast<char>(character));
 }
@@ -73,7 +74,7 @@ Window::Window(const std::string& title, cv::Size size) {
   start_imgui();
 }
 
-// Our callbacks come first; ImGui's backend calls on those that it finds.
+// Our callbacks come first; ImGui's backend chains to the ones that it finds.
 void Window::start_imgui() {
   glfwSetWindowUserPointer(window_, &events_);
   static const auto events = [](GLFWwindow* window) -> Events& {
@@ -111,14 +112,14 @@ void Window::start_imgui() {
   });
   IMGUI_CHECKVERSION();
   ImGui::CreateContext();
-  ImGui::GetIO().IniFilename = nullptr;  // the layout is in the view's own state
+  ImGui::GetIO().IniFilename = nullptr;  // ViewState persists the layout
   ImGui_ImplGlfw_InitForOpenGL(window_, true);
   ImGui_ImplOpenGL3_Init("#version 330 core");
-  canvas_ = std::make_unique<Canvas>();
+  framebuffer_ = std::make_unique<CachedFramebuffer>();
 }
 
 Window::~Window() {
-  canvas_.reset();
+  framebuffer_.reset();
   ImGui_ImplOpenGL3_Shutdown();
   ImGui_ImplGlfw_Shutdown();
   ImGui::DestroyContext();
@@ -136,8 +137,8 @@ void Window::wait(double seconds) {
 }
 
 void Window::renew_fonts() {
-  ImGui_ImplOpenGL3_DestroyFontsTexture();  // the next frame makes it anew
-  canvas_->forget();
+  ImGui_ImplOpenGL3_DestroyFontsTexture();  // the next frame makes it again
+  framebuffer_->reset();
 }
 
 void Window::begin_frame() {
@@ -146,17 +147,17 @@ void Window::begin_frame() {
   ImGui::NewFrame();
 }
 
-void Window::end_frame(const cv::Scalar& background, std::span<const ImTextureID> renewed,
+void Window::end_frame(const cv::Scalar& background, std::span<const TextureId> renewed,
                        const std::function<void()>& before_show) {
   ImGui::Render();
-  const bool drawn = canvas_->draw(*ImGui::GetDrawData(), background, renewed);
+  const bool drawn = framebuffer_->draw(*ImGui::GetDrawData(), background, renewed);
   before_show();
   if (!std::exchange(events_.exposed, false) && !drawn) return;
-  canvas_->show();
+  framebuffer_->show();
   glfwSwapBuffers(window_);
 }
 
-cv::Mat3b Window::picture() const { return canvas_->picture(); }
+cv::Mat3b Window::picture() const { return framebuffer_->read_pixels(); }
 
 bool Window::should_close() const { return glfwWindowShouldClose(window_) == GLFW_TRUE; }
 void Window::close() { glfwSetWindowShouldClose(window_, GLFW_TRUE); }

@@ -8,7 +8,7 @@
 
 #include <opencv2/core.hpp>
 
-#include "ui/drawing/canvas.hpp"
+#include "ui/drawing/cached_framebuffer.hpp"
 #include "ui/session/shortcuts.hpp"
 
 struct GLFWwindow;
@@ -28,20 +28,20 @@ class Window {
   /// Makes wait() return. Any thread, while the window lives.
   static void wake() noexcept;
 
-  /// The font atlas has changed.
+  /// Call after changes of the font atlas.
   void renew_fonts();
 
-  /// Waits for something to happen, at most `seconds`; 0 = only looks.
+  /// Handles events; waits for one at most `seconds`.
   void wait(double seconds);
 
   void begin_frame();
-  /// Draws what ImGui was told, as far as it differs from what is in the window; `before_show` is called when
-  /// all is drawn, before it is shown. `renewed`: textures whose pixels have changed since the last frame.
-  void end_frame(const cv::Scalar& background, std::span<const ImTextureID> renewed,
+  /// Draws the parts of ImGui's frame that differ from the last one; calls `before_show` before showing them.
+  /// `renewed`: textures whose pixels have changed since the last frame.
+  void end_frame(const cv::Scalar& background, std::span<const TextureId> renewed,
                  const std::function<void()>& before_show);
 
-  /// What is in the window, BGR; to be called from `before_show`.
-  cv::Mat3b picture() const;
+  /// The contents of the window, BGR; to be called from `before_show`.
+  [[nodiscard]] cv::Mat3b picture() const;
 
   bool should_close() const;
   void close();
@@ -50,19 +50,19 @@ class Window {
   cv::Size size() const;        ///< in the units of ImGui
   void set_title(const std::string& title);
 
-  /// Files and folders that were dropped onto the window since the last call.
-  std::vector<std::string> take_dropped();
+  /// Files and folders dropped onto the window since the last call.
+  [[nodiscard]] std::vector<std::string> take_dropped();
 
   struct KeyPress {
     Key key;
     bool ctrl, shift;
   };
-  /// The keys that were pressed since the last call, repeats included, by what stands on them: letters in
-  /// upper case, other characters as they were typed (then without shift).
-  std::vector<KeyPress> take_keys();
+  /// The keys pressed since the last call, with repeats: letters in upper case, other characters as typed
+  /// (then without shift).
+  [[nodiscard]] std::vector<KeyPress> take_keys();
 
-  /// Something happened to the window since the last call: input, a new size, a need to draw it again.
-  bool take_event();
+  /// Whether an event came since the last call: input, a new size, a need to draw again.
+  [[nodiscard]] bool take_event();
 
  private:
   struct Events {
@@ -74,7 +74,7 @@ class Window {
 
   GLFWwindow* window_ = nullptr;
   Events events_;
-  std::unique_ptr<Canvas> canvas_;
+  std::unique_ptr<CachedFramebuffer> framebuffer_;
 };
 
 }  // namespace saccade

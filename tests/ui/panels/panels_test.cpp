@@ -45,11 +45,10 @@ class ViewerPanelsTest : public ::testing::Test {
     return frames_.frame(draw);
   }
 
-  // A click on a share of the width of a thing whose place the panel tells.
+  // A click on a share of the width of a thing whose place the panel logs.
   void click(const char* place, const Draw& draw, float across = 0.5F) {
     settled(draw);
-    const nlohmann::json box = view_.places.at(place);
-    const float left = box[0], top = box[1], right = box[2], bottom = box[3];
+    const auto [left, top, right, bottom] = view_.places.at(place);
     frames_.click({left + across * (right - left), (top + bottom) / 2}, draw);
   }
 
@@ -127,8 +126,8 @@ TEST_F(TransportTest, ButtonsDoWhatTheyShow) {
   show_result();
   for (const char* button : {"first", "back", "play", "on", "last", "loop", "record", "snapshot"})
     click(button, draw_);
-  EXPECT_THAT(acts_, ::testing::ElementsAre(Action::first_frame, Action::step_back, Action::play_pause,
-                                            Action::step_on, Action::last_frame, Action::toggle_loop,
+  EXPECT_THAT(acts_, ::testing::ElementsAre(Action::first_frame, Action::previous_frame, Action::play_pause,
+                                            Action::next_frame, Action::last_frame, Action::toggle_loop,
                                             Action::record, Action::snapshot));
   expect_fits(draw_);
 }
@@ -149,8 +148,7 @@ TEST_F(TransportTest, TheTimeLineShowsTheStrengthsAndThePresentFrame) {
   settled(draw_);
   ImVec2 low, high;
   ASSERT_TRUE(ImGuiFrames::box_of(view_.colours->plot, low, high));
-  const nlohmann::json line = view_.places["timeline"];
-  const float left = line[0], top = line[1], right = line[2], bottom = line[3];
+  const auto [left, top, right, bottom] = view_.places.at("timeline");
   const float frame = (right - left) / 16;
   EXPECT_NEAR(low.x, left + 3 * frame, 2);
   EXPECT_NEAR(high.x, left + 5 * frame, 2);
@@ -164,7 +162,7 @@ class WideTest : public ViewerPanelsTest {
   WideTest() : ViewerPanelsTest(1280, 800) {}
 };
 
-TEST_F(WideTest, AnErrorStaysUntilItIsPutAway) {
+TEST_F(WideTest, AnErrorStaysUntilItIsDismissed) {
   view_.errors = {"cannot read: a.oni (is it there?)",
                   "cannot write: the disk is full: " + std::string(300, 'x')};
   view_.notes = {"a gap of 3 frames"};
@@ -173,8 +171,8 @@ TEST_F(WideTest, AnErrorStaysUntilItIsPutAway) {
   ImVec2 low, high;
   EXPECT_TRUE(ImGuiFrames::box_of(view_.colours->error, low, high));
   EXPECT_TRUE(ImGuiFrames::box_of(view_.colours->warning, low, high));
-  click("put error away", draw);
-  click("put notes away", draw);
+  click("dismiss error", draw);
+  click("dismiss notes", draw);
   EXPECT_EQ(view_.errors.size(), 1u);
   EXPECT_TRUE(view_.notes.empty());
 }
@@ -191,7 +189,7 @@ TEST_F(WideTest, TheHelpShowsEveryShortcutAndFits) {
   EXPECT_TRUE(open);
 }
 
-TEST_F(WideTest, TheStateIsToldInTheMiddleOnlyWhileSomethingIsWrong) {
+TEST_F(WideTest, TheStateIsShownInTheMiddleOnlyWhileSomethingIsWrong) {
   const Draw draw = [this] { draw_state_banner(view_, {0, 0}, {1280, 800}); };
   ImVec2 low, high;
   const auto shown = [&](Tone tone) {

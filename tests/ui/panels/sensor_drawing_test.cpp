@@ -24,12 +24,12 @@ TEST(Headline, SaysHowTheSourceDoes) {
 
   SourceFacts source = live(0);
   source.connection.connection = Connection::waiting;
-  EXPECT_EQ(headline(source, now).text, "Waiting for device");
+  EXPECT_EQ(headline(source, now).text, "Waiting for the sensor");
   source.connection.connection = Connection::lost;
   source.connection.since = now - 3500ms;
-  EXPECT_EQ(headline(source, now).text, "Lost 3 s ago, retrying");
+  EXPECT_EQ(headline(source, now).text, "Sensor lost 3 s ago, retrying");
   source.connection.since = now - 75s;
-  EXPECT_EQ(headline(source, now).text, "Lost 1 min 15 s ago, retrying");
+  EXPECT_EQ(headline(source, now).text, "Sensor lost 1 min 15 s ago, retrying");
   source.error = "the device is of another size";
   EXPECT_EQ(headline(source, now).tone, Tone::bad);
 

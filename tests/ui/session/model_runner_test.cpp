@@ -1,4 +1,5 @@
-// What computes the viewer's results: kept parts, drafts and what is given up equal what is computed at once.
+// The computation of the viewer's results: reused parts, drafts and interrupted computations give the same
+// results as a single computation.
 #include "ui/session/model_runner.hpp"
 
 #include <cmath>
@@ -66,11 +67,11 @@ TEST(ModelRunner, WhatIsKeptEqualsWhatIsComputed) {
   wta.selector = Selector::wta;
   ModelRunner runner(pool);
   for (const Settings& settings : {with_kernel(9), fewer, wta, other}) {
-    Computed kept, anew;
-    kept.result.frame = anew.result.frame = last.result.frame;
+    Computed kept, fresh;
+    kept.result.frame = fresh.result.frame = last.result.frame;
     runner.compute(settings, kAll, &last, kept);
-    ModelRunner(pool).compute(settings, kAll, nullptr, anew);
-    expect_same(kept, anew);
+    ModelRunner(pool).compute(settings, kAll, nullptr, fresh);
+    expect_same(kept, fresh);
     EXPECT_EQ(has_maps(last, settings, kAll), settings.kernel == 9);
     EXPECT_EQ(kept.result.times[Stage::symmetry] > 0, settings.kernel != 9) << "computed only if it must be";
   }
@@ -102,15 +103,15 @@ TEST(ModelRunner, EverySettingOfAttentionMakesThePointsStaleAndNoOther) {
 TEST(ModelRunner, ComputesTheSameAfterAnInterruption) {
   WorkerPool pool(2);
   ModelRunner runner(pool);
-  Computed out, anew;
-  out.result.frame = anew.result.frame = ball_frame({96, 80});
+  Computed out, fresh;
+  out.result.frame = fresh.result.frame = ball_frame({96, 80});
   runner.compute(with_kernel(7), {}, nullptr, out);
   pool.interrupt();
   EXPECT_THROW(runner.compute(with_kernel(21), {}, nullptr, out), WorkerPool::Interrupted);
   pool.resume();
   runner.compute(with_kernel(21), {}, nullptr, out);
-  ModelRunner(pool).compute(with_kernel(21), {}, nullptr, anew);
-  expect_same(out, anew);
+  ModelRunner(pool).compute(with_kernel(21), {}, nullptr, fresh);
+  expect_same(out, fresh);
 }
 
 TEST(Draft, IsOfCoarserLevelsWhereItTakesLong) {
@@ -136,7 +137,7 @@ TEST(Draft, IsOfCoarserLevelsWhereItTakesLong) {
   EXPECT_FALSE(draft_of(settings, {640, 480})) << "it has no levels to begin with";
 }
 
-class TunableProcessorTest : public ::testing::Test {
+class InteractiveProcessorTest : public ::testing::Test {
  protected:
   void process(InteractiveProcessor& processor, std::int64_t index) {
     Result result;
@@ -155,15 +156,14 @@ class TunableProcessorTest : public ::testing::Test {
             [this](std::shared_ptr<ViewResult> result) {
               published_.push_back(result);
               if (on_publish_) on_publish_();
-            },
-            [] {}};
+            }};
   }
 
   std::vector<std::shared_ptr<ViewResult>> published_;
   std::function<void()> on_publish_;
 };
 
-TEST_F(TunableProcessorTest, PublishesADraftAndThenTheWhole) {
+TEST_F(InteractiveProcessorTest, PublishesADraftAndThenTheWhole) {
   const Settings slow = with_kernel(127);
   ASSERT_TRUE(draft_of(slow, {160, 120}));
   InteractiveProcessor processor({slow, {}, {}}, 1, hooks());
@@ -180,7 +180,7 @@ TEST_F(TunableProcessorTest, PublishesADraftAndThenTheWhole) {
   EXPECT_FALSE(published_[2]->draft);
 }
 
-TEST_F(TunableProcessorTest, WhatDidNotChangeIsNotComputedAgain) {
+TEST_F(InteractiveProcessorTest, WhatDidNotChangeIsNotComputedAgain) {
   Settings slow = with_kernel(127), fast = with_kernel(7);
   InteractiveProcessor processor({fast, slow, {}}, 1, hooks());
   process(processor, 0);
@@ -197,7 +197,7 @@ TEST_F(TunableProcessorTest, WhatDidNotChangeIsNotComputedAgain) {
   expect_same(published_[2]->b, expected(slow));
 }
 
-TEST_F(TunableProcessorTest, NewWishesComeBeforeTheWholeOfOldOnes) {
+TEST_F(InteractiveProcessorTest, ANewRequestComesBeforeTheWholeOfAnOldOne) {
   InteractiveProcessor processor({with_kernel(127), {}, {}}, 1, hooks());
   on_publish_ = [&] {
     if (published_.size() == 1) processor.set_compute_request({with_kernel(9), {}, {}}, 2);

@@ -13,30 +13,30 @@ const SensorValues kMirror{kNone, true, kNone, kNone, kNone}, kAutomatic{kNone, 
 TEST(SensorWishes, WhatIsAskedForIsInTheSettingsAndComesOutAgain) {
   const SensorSettings before;
   SensorSettings after = before;
-  take_request(after, kMirror, kDevice);
+  store_request(after, kMirror, kDevice);
   EXPECT_EQ(changed_values(before, after), kMirror);
   EXPECT_EQ(changed_values(after, before).mirror, false) << "undone";
 
   after = before;
   const SensorValues two{false, kNone, kNone, kNone, false};
-  take_request(after, two, kDevice);
+  store_request(after, two, kDevice);
   EXPECT_EQ(changed_values(before, after), two);
   EXPECT_EQ(changed_values(after, after), SensorValues{});
 }
 
 TEST(SensorWishes, ExposureStaysAsItIsWhenItIsNoLongerAutomatic) {
   SensorSettings settings;
-  take_request(settings, kByHand, kDevice);
+  store_request(settings, kByHand, kDevice);
   EXPECT_EQ(settings.exposure, 40);
   EXPECT_EQ(changed_values({}, settings), (SensorValues{kNone, kNone, false, 40, kNone}));
-  take_request(settings, {kNone, kNone, kNone, 55, kNone}, kDevice);
+  store_request(settings, {kNone, kNone, kNone, 55, kNone}, kDevice);
   EXPECT_EQ(settings.exposure, 55);
   SensorSettings automatic = settings;
-  take_request(automatic, kAutomatic, kDevice);
+  store_request(automatic, kAutomatic, kDevice);
   EXPECT_EQ(changed_values(settings, automatic), kAutomatic);
 
   settings = {};
-  take_request(settings, kByHand, kAutomatic);
+  store_request(settings, kByHand, kAutomatic);
   EXPECT_FALSE(settings.exposure) << "the device does not say any";
 }
 

@@ -203,7 +203,7 @@ TEST_F(SessionTest, AnotherCameraHoldsForTheFrameThatIsShown) {
   request.a.intrinsics = Intrinsics{2 * own.fx, 2 * own.fy, own.cx, own.cy};
   session->set_compute_request(request);
   EXPECT_TRUE(wait_for([&] { return session->latest()->frame().intrinsics.fx == 2 * own.fx; }));
-  EXPECT_GT(cv::norm(session->latest()->a.result.maps.master, before), 0) << "the map is made anew";
+  EXPECT_GT(cv::norm(session->latest()->a.result.maps.master, before), 0) << "the map is computed again";
   session->set_compute_request({});
   EXPECT_TRUE(wait_for([&] { return session->latest()->frame().intrinsics.fx == own.fx; }))
       << "the source's own again";
@@ -216,15 +216,6 @@ TEST_F(SessionTest, AsFastAsPossibleComputesEveryFrame) {
   session->open({.uri = "ball"});
   ASSERT_TRUE(wait_for([&] { return session->state().ledger.processed == 30; }));
   EXPECT_EQ(session->state().ledger.dropped, 0);
-}
-
-TEST_F(SessionTest, TellsWhetherItComputes) {
-  const auto session = make();
-  session->playback().set_speed(0);
-  session->open({.uri = "ball"});
-  EXPECT_TRUE(wait_for([&] { return session->state().computing; }));
-  session->playback().pause();
-  EXPECT_TRUE(wait_for([&] { return !session->state().computing; }));
 }
 
 TEST_F(SessionTest, OpeningOverAndOverEndsWithTheNewest) {

@@ -1,4 +1,4 @@
-// Where things are: zoom and pan, the time line, what is drawn over a picture.
+// Zoom and pan, the time line, and the drawings over a picture.
 #include <gtest/gtest.h>
 
 #include "ui/session/overlay_shapes.hpp"

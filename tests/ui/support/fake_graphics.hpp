@@ -1,7 +1,6 @@
 #pragma once
 
 #include <memory>
-#include <utility>
 
 #include "ui/session/graphics.hpp"
 
@@ -13,7 +12,7 @@ class FakeGraphics final : public Graphics {
   class Texture final : public PictureTexture {
    public:
     void upload(const cv::Mat3b& picture) override { picture.copyTo(uploaded); }
-    bool set_sharp(bool is_sharp) override { return std::exchange(sharp, is_sharp) != is_sharp; }
+    void set_sharp(bool is_sharp) override { sharp = is_sharp; }
     [[nodiscard]] TextureId id() const override { return uploaded.empty() ? 0 : 2; }
 
     cv::Mat3b uploaded;
@@ -37,7 +36,6 @@ class FakeGraphics final : public Graphics {
     TextureId render(const CloudFrame&, const CloudStyle&, const OrbitCamera&, cv::Size, bool) override {
       return 3;
     }
-    [[nodiscard]] bool renewed() const override { return false; }
   };
 };
 

@@ -26,7 +26,7 @@ class ImGuiFrames {
   ImGuiFrames(const ImGuiFrames&) = delete;
   ImGuiFrames& operator=(const ImGuiFrames&) = delete;
 
-  /// What one frame drew.
+  /// The drawing of one frame.
   struct Drawn {
     int vertices = 0;
     float content_width = 0, window_width = 0;  ///< of what stands in the window; of the room for it

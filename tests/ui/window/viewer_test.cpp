@@ -22,7 +22,7 @@ using Json = nlohmann::json;
 
 const std::string kTable = std::string(SACCADE_SOURCE_DIR) + "/recordings/table.oni";
 
-// What the picture shows, by its key; null while it shows nothing.
+// A value of the result on screen; null while there is none.
 Json shown(const Json& j, const char* key) {
   return j.contains("shown") ? j["shown"].value(key, Json()) : Json();
 }
@@ -41,7 +41,7 @@ class ViewerTest : public XProgramTest {
                 cv::Rect({}, shot.size()));
   }
 
-  // What the viewer finds of the last time.
+  // Saves a state for the next start.
   void keep_state(std::string_view json) const {
     std::filesystem::create_directory(folder_ / "saccade");
     write_file(in("saccade/viewer.json"), json);
@@ -53,7 +53,7 @@ class ViewerTest : public XProgramTest {
     ::unsetenv("SACCADE_VIRTUAL_DEVICE");
   }
 
-  // From one moment on the log does not grow, however long the machine takes to get there.
+  // Whether the log stops growing, however long the machine takes to get there.
   bool draws_nothing() const {
     const auto frames = [this] { return now()["frames"].get<std::int64_t>(); };
     for (int i = 0; i < 60; ++i) {
@@ -175,7 +175,7 @@ TEST_F(ViewerTest, PlaysTunesComparesAndQuits) {
   EXPECT_EQ(now()["comparison"], 2);
 }
 
-// Keys, as a person who keeps what is seen presses them, and what is then in the folder.
+// By keys; and the files that they leave.
 TEST_F(ViewerTest, RecordsAndTakesSnapshots) {
   start({kTable});
   record_and_check(8);
@@ -202,7 +202,7 @@ TEST_F(ViewerTest, RecordsASensorAndPlaysItAgain) {
   EXPECT_TRUE(now()["errors"].empty());
 }
 
-// What a person changes at a sensor, what undo makes of it, and a sensor that goes and comes back.
+// Settings of a sensor, their undo, and another mode.
 TEST_F(ViewerTest, ASensorIsSetAndSetBack) {
   keep_state(R"({"open": {"tuning": false, "display": false, "sensors": true}})");
   start_sensor("synthetic:table?noise=kinect");

@@ -36,7 +36,7 @@ struct XDesktop::Client {
   Window target = 0, own = 0;
 
   Atom atom(const char* name) const { return XInternAtom(display, name, False); }
-  void tell(const char* message, long word_1, long word_2, long word_3, long word_4) const;
+  void send(const char* message, long word_1, long word_2, long word_3, long word_4) const;
   void give(const XSelectionRequestEvent& request, const std::string& text) const;
   bool wait_for(const char* message, const std::string& text, XClientMessageEvent& answer) const;
 
@@ -58,7 +58,7 @@ XDesktop::XDesktop(const std::string& display, const std::string& window_class)
 
 XDesktop::~XDesktop() = default;
 
-void XDesktop::Client::tell(const char* message, long word_1, long word_2, long word_3, long word_4) const {
+void XDesktop::Client::send(const char* message, long word_1, long word_2, long word_3, long word_4) const {
   XEvent event{};
   event.xclient.type = ClientMessage;
   event.xclient.window = target;
@@ -109,11 +109,11 @@ bool XDesktop::drop(const std::filesystem::path& file) {
   const auto list = static_cast<long>(c.atom("text/uri-list")),
              copy = static_cast<long>(c.atom("XdndActionCopy"));
   XSetSelectionOwner(c.display, c.atom("XdndSelection"), c.own, CurrentTime);
-  c.tell("XdndEnter", kVersion << 24, list, 0, 0);
-  c.tell("XdndPosition", 0, 100 << 16 | 100, CurrentTime, copy);
+  c.send("XdndEnter", kVersion << 24, list, 0, 0);
+  c.send("XdndPosition", 0, 100 << 16 | 100, CurrentTime, copy);
   XClientMessageEvent answer{};
   if (!c.wait_for("XdndStatus", text, answer) || (answer.data.l[1] & 1) == 0) return false;
-  c.tell("XdndDrop", 0, CurrentTime, 0, 0);
+  c.send("XdndDrop", 0, CurrentTime, 0, 0);
   return c.wait_for("XdndFinished", text, answer);
 }
 

@@ -134,7 +134,7 @@ void XProgramTest::hand_and_wait(const std::string& words) const {
 }
 
 void XProgramTest::click(const std::string& place, double across) const {
-  // What a person aims at may still be moving.
+  // The target may still be moving.
   std::pair<int, int> aim{-1, -1};
   for (auto at = place_of(place, across); at != aim; at = place_of(place, across)) {
     aim = at;

@@ -1,5 +1,5 @@
-// What is drawn in parts looks like what is drawn at once.
-#include "ui/drawing/canvas.hpp"
+// Drawing the damage gives the same pixels as drawing everything.
+#include "ui/drawing/cached_framebuffer.hpp"
 
 #include <array>
 #include <memory>
@@ -12,7 +12,7 @@
 namespace saccade {
 namespace {
 
-// What a frame shows; the first one, if nothing is changed.
+// The contents of a frame; by default those of the first one.
 struct Scene {
   int kernel = 15;
   bool popup = false, wide = false;
@@ -20,7 +20,7 @@ struct Scene {
   float line_end = 90;
 };
 
-class CanvasTest : public GlTest {
+class CachedFramebufferTest : public GlTest {
  protected:
   void SetUp() override {
     GlTest::SetUp();
@@ -32,12 +32,12 @@ class CanvasTest : public GlTest {
     glBindTexture(GL_TEXTURE_2D, texture_);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
     set_texture(10);
-    canvas_ = std::make_unique<Canvas>();
-    reference_ = std::make_unique<Canvas>();
+    cached_ = std::make_unique<CachedFramebuffer>();
+    reference_ = std::make_unique<CachedFramebuffer>();
   }
   void TearDown() override {
-    if (canvas_) {
-      canvas_.reset();
+    if (cached_) {
+      cached_.reset();
       reference_.reset();
       glDeleteTextures(1, &texture_);
       ImGui_ImplOpenGL3_Shutdown();
@@ -82,26 +82,26 @@ class CanvasTest : public GlTest {
   }
 
   // Draws what has changed, and beside it everything; whether anything was drawn.
-  bool draw(const Scene& scene, std::span<const ImTextureID> renewed = {}) {
+  bool draw(const Scene& scene, std::span<const TextureId> renewed = {}) {
     for (int settled = 0; settled < 2; ++settled) lay_out(scene);
     const cv::Scalar background(0.1, 0.2, 0.3);
-    const bool drawn = canvas_->draw(*ImGui::GetDrawData(), background, renewed);
+    const bool drawn = cached_->draw(*ImGui::GetDrawData(), background, renewed);
     lay_out(scene);
-    reference_->forget();
+    reference_->reset();
     EXPECT_TRUE(reference_->draw(*ImGui::GetDrawData(), background, renewed));
-    EXPECT_EQ(cv::norm(canvas_->picture(), reference_->picture(), cv::NORM_INF), 0);
+    EXPECT_EQ(cv::norm(cached_->read_pixels(), reference_->read_pixels(), cv::NORM_INF), 0);
     EXPECT_EQ(glGetError(), static_cast<unsigned>(GL_NO_ERROR));
     return drawn;
   }
 
   unsigned texture_ = 0;
-  std::unique_ptr<Canvas> canvas_, reference_;
+  std::unique_ptr<CachedFramebuffer> cached_, reference_;
 };
 
-TEST_F(CanvasTest, PartsLookLikeTheWhole) {
+TEST_F(CachedFramebufferTest, PartsLookLikeTheWhole) {
   Scene scene;
   EXPECT_TRUE(draw(scene));
-  EXPECT_GT(cv::norm(canvas_->picture().row(40)), 0);
+  EXPECT_GT(cv::norm(cached_->read_pixels().row(40)), 0);
   EXPECT_FALSE(draw(scene)) << "nothing has changed";
   scene.kernel = 17;
   EXPECT_TRUE(draw(scene));
@@ -117,13 +117,13 @@ TEST_F(CanvasTest, PartsLookLikeTheWhole) {
   EXPECT_TRUE(draw(scene));
   scene.wide = true;
   EXPECT_TRUE(draw(scene)) << "another size";
-  EXPECT_EQ(canvas_->picture().size(), cv::Size(320, 200));
+  EXPECT_EQ(cached_->read_pixels().size(), cv::Size(320, 200));
 }
 
-TEST_F(CanvasTest, ATextureWithOtherPixelsIsDrawnAnew) {
+TEST_F(CachedFramebufferTest, ATextureWithOtherPixelsIsDrawnAgain) {
   EXPECT_TRUE(draw({}));
   set_texture(200);
-  const ImTextureID renewed = texture();
+  const TextureId renewed = texture_;
   EXPECT_TRUE(draw({}, {&renewed, 1}));
 }
 
