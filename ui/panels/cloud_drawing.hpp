@@ -20,9 +20,10 @@ struct CloudPanelState {
 };
 
 /// Draws the panel: a row of choices, and below it, in the room that is left, the cloud and the fixations.
-/// Dragging with the left button orbits, with the right or middle button (or Shift) pans; the wheel zooms about
-/// the pointer; a double click returns to the sensor's view. `render` draws the cloud in the given size in
-/// pixels and returns its texture, bottom row first; 0 = none. Within an ImGui window, on the drawing thread.
+/// Dragging with the left button orbits, with the right or middle button (or Shift) pans; the wheel zooms
+/// about the pointer; a double click returns to the sensor's view. `render` draws the cloud in the given size
+/// in pixels and returns its texture, bottom row first; 0 = none. Within an ImGui window, on the drawing
+/// thread.
 void draw_cloud(CloudStyle& style, CloudPanelState& state, const Frame& frame, const Attention& attention,
                 const std::function<ImTextureID(cv::Size)>& render);
 

@@ -8,8 +8,8 @@
 
 namespace saccade {
 
-/// The virtual camera of the point cloud: its eye orbits a target on a sphere. The world is the sensor's camera
-/// frame: mm, x right, y down, z forward. Pointer positions and sizes are viewport pixels, y down.
+/// The virtual camera of the point cloud: its eye orbits a target on a sphere. The world is the sensor's
+/// camera frame: mm, x right, y down, z forward. Pointer positions and sizes are viewport pixels, y down.
 class OrbitCamera {
  public:
   static constexpr double kNearest_mm = 50, kFarthest_mm = 50'000;

@@ -34,7 +34,8 @@ class Viewer {
   /// Starts with a saved `state`. Throws Error (failed) where there is no display or no OpenGL 3.3.
   Viewer(ViewState state, ViewerOptions options, Session::Open open, DeviceWatch::List list_sensors);
 
-  /// Runs until the window is closed or the screenshot is written. Throws Error (failed) if that is impossible.
+  /// Runs until the window is closed or the screenshot is written. Throws Error (failed) if that is
+  /// impossible.
   void run();
 
   /// Ends run() soon. Any thread.

@@ -65,20 +65,20 @@ class ViewerTest : public XProgramTest {
   }
 
   void type_source(const std::string& uri) const {
-    hand("key ctrl+o");
-    hand("sleep 1");
+    xdotool("key ctrl+o");
+    xdotool("sleep 1");
     // ImGui looks at these keys once a frame, and frames are slow here: they are held for a while.
-    hand("keydown ctrl keydown a sleep 0.5 keyup a keyup ctrl");
-    hand("type --delay 60 " + uri);
-    hand("keydown Return sleep 0.5 keyup Return");
+    xdotool("keydown ctrl keydown a sleep 0.5 keyup a keyup ctrl");
+    xdotool("type --delay 60 " + uri);
+    xdotool("keydown Return sleep 0.5 keyup Return");
   }
 
   // Records until so many frames are written; the file, which is a whole recording.
   std::filesystem::path record_and_check(int frames) const {
-    hand("key r");
+    xdotool("key r");
     EXPECT_TRUE(
         until([&](const Json& j) { return j["recording"] == true && j["recorded"]["frames"] >= frames; }));
-    hand("key r");
+    xdotool("key r");
     EXPECT_TRUE(until([](const Json& j) { return j["recording"] == false; }));
     const Json recorded = now()["recorded"];
     const std::filesystem::path file = recorded["file"].get<std::string>();
@@ -98,7 +98,7 @@ class ViewerTest : public XProgramTest {
   }
 
   std::filesystem::path take_snapshot() const {
-    hand("key s");
+    xdotool("key s");
     EXPECT_TRUE(until([](const Json& j) { return j["snapshot"] != ""; }));
     return now()["snapshot"].get<std::string>();
   }
@@ -137,38 +137,38 @@ TEST_F(ViewerTest, PlaysTunesComparesAndQuits) {
   start({"--size", "1280x800"});  // without SOURCE: the bundled recording
   EXPECT_EQ(now()["source"], std::filesystem::canonical(kTable).string());
   EXPECT_TRUE(until([](const Json& j) { return j["position"] > 1; })) << "it plays";
-  hand("key space");
+  xdotool("key space");
   ASSERT_TRUE(until([](const Json& j) { return j["paused"] == true; }));
 
   click("timeline", 0.6);  // of 16 frames: frame 9
   EXPECT_TRUE(until([](const Json& j) { return shown(j, "index") == 9; }));
-  hand("key Right");
+  xdotool("key Right");
   EXPECT_TRUE(until([](const Json& j) { return shown(j, "index") == 10; }));
-  hand("key Left");
-  hand("key Left");
+  xdotool("key Left");
+  xdotool("key Left");
   EXPECT_TRUE(until([](const Json& j) { return shown(j, "index") == 8; }));
 
-  hand("key bracketright");
+  xdotool("key bracketright");
   EXPECT_TRUE(until([](const Json& j) { return shown(j, "kernel") == 17 && shown(j, "index") == 8; }));
   drag("kernel", 0.15, 0.3);
   EXPECT_TRUE(until([](const Json& j) { return j["kernel"] > 30 && shown(j, "kernel") == j["kernel"]; }));
-  hand("key ctrl+z");
+  xdotool("key ctrl+z");
   EXPECT_TRUE(until([](const Json& j) { return shown(j, "kernel") == 17; })) << "the drag was one step";
-  hand("key ctrl+shift+z");
+  xdotool("key ctrl+shift+z");
   EXPECT_TRUE(until([](const Json& j) { return shown(j, "kernel") > 30; }));
-  hand("key m");
+  xdotool("key m");
   EXPECT_TRUE(until([](const Json& j) { return shown(j, "model") == "combined"; }));
 
-  hand("key c");
+  xdotool("key c");
   EXPECT_TRUE(until([](const Json& j) { return j["comparison"] == 1 && shown(j, "compared") == true; }));
-  hand("key c");
+  xdotool("key c");
   EXPECT_TRUE(until([](const Json& j) { return j["comparison"] == 2 && j["places"].contains("divider"); }));
   drag("picture", 0.5, 0.25);
   EXPECT_TRUE(until([](const Json& j) { return j["divider"] < 0.3; }));
-  hand("search --onlyvisible --class saccade windowsize 1000 700");
+  xdotool("search --onlyvisible --class saccade windowsize 1000 700");
   EXPECT_TRUE(until([](const Json& j) { return j["window"] == Json{1000, 700}; }));
 
-  hand("key ctrl+q");
+  xdotool("key ctrl+q");
   EXPECT_EQ(wait_for_exit(), 0);
   start({});
   EXPECT_EQ(now()["model"], "combined") << "what was set is there again";
@@ -211,7 +211,7 @@ TEST_F(ViewerTest, ASensorIsSetAndSetBack) {
   }));
   click("Mirror", 0.2);
   EXPECT_TRUE(until([](const Json& j) { return j["mirror"] == true; }));
-  hand("key ctrl+z");
+  xdotool("key ctrl+z");
   EXPECT_TRUE(until([](const Json& j) { return j["mirror"] == false; })) << "undone at the device too";
   click("Registration", 0.2);
   EXPECT_TRUE(until([](const Json& j) { return j["registration"] == false; }));
@@ -264,7 +264,7 @@ TEST_F(ViewerTest, ShowsADraftOfWhatTakesLongAndGoesOnDrawing) {
     return [kernel](const Json& j) { return shown(j, "kernel") == kernel && shown(j, "draft") == false; };
   };
   ASSERT_TRUE(until(whole(61)));
-  hand("key bracketleft");
+  xdotool("key bracketleft");
   ASSERT_TRUE(until(whole(59)));
   const std::int64_t generation = now()["generation"];
   int with_draft = 0;

@@ -76,7 +76,7 @@ void XProgramTest::start(const std::vector<std::string>& arguments) {
   std::filesystem::remove(folder_ / "log");  // of the last start
   program_ = spawn(words, true);
   ASSERT_TRUE(until([](const Json& line) { return line.contains("shown"); }));
-  hand("search --onlyvisible --class saccade windowfocus --sync");
+  xdotool("search --onlyvisible --class saccade windowfocus --sync");
 }
 
 int XProgramTest::wait_for_exit() { return exit_status(std::exchange(program_, -1)); }
@@ -111,7 +111,7 @@ Json XProgramTest::now() const {
          << "not within " << kPatience.count() << " min; the last line: " << line.dump();
 }
 
-void XProgramTest::hand(const std::string& words) const {
+void XProgramTest::xdotool(const std::string& words) const {
   const std::string command = "DISPLAY=" + server_.display() + " xdotool " + words;
   EXPECT_EQ(std::system(command.c_str()), 0) << command;
 }
@@ -123,11 +123,11 @@ std::pair<int, int> XProgramTest::place_of(const std::string& place, double acro
           static_cast<int>(std::lround((top + bottom) / 2))};
 }
 
-void XProgramTest::hand_and_wait(const std::string& words) const {
+void XProgramTest::xdotool_and_wait(const std::string& words) const {
   using namespace std::chrono_literals;
   // ImGui looks at the mouse once a frame, so that what is done and undone between two frames is not seen.
   const std::int64_t frames = now()["frames"];
-  hand(words + " sleep 0.2");
+  xdotool(words + " sleep 0.2");
   const auto end = std::chrono::steady_clock::now() + 5s;  // it may not draw: the mouse may be there already
   while (now()["frames"] < frames + 2 && std::chrono::steady_clock::now() < end)
     std::this_thread::sleep_for(20ms);
@@ -138,21 +138,21 @@ void XProgramTest::click(const std::string& place, double across) const {
   std::pair<int, int> aim{-1, -1};
   for (auto at = place_of(place, across); at != aim; at = place_of(place, across)) {
     aim = at;
-    hand_and_wait("mousemove " + std::to_string(aim.first) + " " + std::to_string(aim.second));
+    xdotool_and_wait("mousemove " + std::to_string(aim.first) + " " + std::to_string(aim.second));
   }
-  hand_and_wait("mousedown 1");
-  hand_and_wait("mouseup 1");
+  xdotool_and_wait("mousedown 1");
+  xdotool_and_wait("mouseup 1");
 }
 
 void XProgramTest::drag(const std::string& place, double from, double to) const {
   const auto [x0, y] = place_of(place, from);
   const int x1 = place_of(place, to).first;
   const std::string row = " " + std::to_string(y);
-  hand_and_wait("mousemove " + std::to_string(x0) + row);
-  hand_and_wait("mousedown 1");
-  hand_and_wait("mousemove " + std::to_string((x0 + x1) / 2) + row);
-  hand_and_wait("mousemove " + std::to_string(x1) + row);
-  hand_and_wait("mouseup 1");
+  xdotool_and_wait("mousemove " + std::to_string(x0) + row);
+  xdotool_and_wait("mousedown 1");
+  xdotool_and_wait("mousemove " + std::to_string((x0 + x1) / 2) + row);
+  xdotool_and_wait("mousemove " + std::to_string(x1) + row);
+  xdotool_and_wait("mouseup 1");
 }
 
 }  // namespace saccade
