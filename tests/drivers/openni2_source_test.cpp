@@ -40,11 +40,11 @@ class Sensor : public ::testing::Test {
     return frame;
   }
 
-  // All frames of the scene, in whole millimetres as the device gives them.
+  // All frames of the scene, in integer millimetres as the device gives them.
   static std::vector<Frame> originals() {
     const auto source = open_source(kScene);
     std::vector<Frame> frames(kScenes);
-    for (Frame& frame : frames) source->read(frame, kNoWait);
+    for (Frame& frame : frames) EXPECT_EQ(source->read(frame, kNoWait).status, ReadStatus::frame);
     return frames;
   }
 

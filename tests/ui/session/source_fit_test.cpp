@@ -8,6 +8,7 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::SizeIs;
 
 SourceInfo source_of(cv::Size size, bool has_depth) {
   SourceInfo source;
@@ -39,17 +40,17 @@ TEST(SourceFit, WithoutDepthAModelOfTheImageIsShownUntilThereIsDepthAgain) {
   EXPECT_EQ(settings, before);
 }
 
-TEST(SourceFit, WhatWasChosenSinceStays) {
+TEST(SourceFit, AChoiceSinceStays) {
   ComparedSettings settings;
   SourceFit fit;
-  fit.fit(settings, kCamera);
+  EXPECT_THAT(fit.fit(settings, kCamera), SizeIs(1));
   settings.a.model = "radial2d";
-  fit.fit(settings, kSensor);
+  EXPECT_THAT(fit.fit(settings, kSensor), IsEmpty());
   EXPECT_EQ(settings.a.model, "radial2d");
   EXPECT_EQ(settings.a.selector, Selector::proto);
 }
 
-TEST(SourceFit, TellsOfTheSourceAndOfLevelsThatDoNotFit) {
+TEST(SourceFit, ReportsNotesOfTheSourceAndLevelsThatDoNotFit) {
   ComparedSettings settings;
   SourceInfo small = source_of({64, 48}, true);
   small.notes = {"a gap"};
