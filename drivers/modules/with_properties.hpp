@@ -18,7 +18,7 @@ class WithProperties : public Base {
 
   OniStatus setProperty(int id, const void* data, int size) final {
     const OniStatus status = properties_.set(id, data, size);
-    if (status == ONI_STATUS_OK) tell_changed(id, data, size);
+    if (status == ONI_STATUS_OK) raise_property_changed(id, data, size);
     return status;
   }
 
@@ -28,14 +28,15 @@ class WithProperties : public Base {
   }
 
   void notifyAllProperties() final {
-    properties_.for_each([this](int id, const void* data, int size) { tell_changed(id, data, size); });
+    properties_.for_each(
+        [this](int id, const void* data, int size) { raise_property_changed(id, data, size); });
   }
 
  protected:
   PropertyTable properties_;  // filled by the constructors of derived classes
 
  private:
-  void tell_changed(int id, const void* data, int size) {
+  void raise_property_changed(int id, const void* data, int size) {
     if (has_listener_) this->raisePropertyChanged(id, data, size);
   }
 

@@ -38,7 +38,7 @@ struct ImageResult {
   std::string name{};                     ///< of the frame; may be empty
   std::optional<std::string> left_out{};  ///< why the image is not part of the evaluation; none: it is
   int objects = 0;
-  bool void_known = false;                    ///< the image has classes, which tell void from structure
+  bool void_known = false;                    ///< the image has classes, which separate void from structure
   std::vector<double> random{}, centre{};     ///< expected HR_n of the baselines, n = 1..points
   std::vector<ConditionResult> conditions{};  ///< as EvalPlan::conditions()
 };

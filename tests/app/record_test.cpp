@@ -139,7 +139,7 @@ TEST_F(RecordTest, AFullFileSystemLeavesAClosedFileOfAllFramesBefore) {
   EXPECT_EQ(outcome.status, 1);
   EXPECT_TRUE(outcome.one_error_line());
   EXPECT_THAT(outcome.err, HasSubstr("disk full"));
-  EXPECT_THAT(outcome.err, HasSubstr("the " + std::to_string(frames) + " frames before are safe"));
+  EXPECT_THAT(outcome.err, HasSubstr("closed with the " + std::to_string(frames) + " frames before"));
   EXPECT_GT(frames, 5);
   EXPECT_TRUE(is_sound);
 }

@@ -1,8 +1,9 @@
-// Plays a Kinect through OpenNI2 and our driver module, and writes what comes to a file: for each frame u8
+// Plays a Kinect through OpenNI2 and our driver module, and writes the frames to a file: for each frame u8
 // sensor ('d' depth, 'c' colour, 'i' infrared), u64 time, u32 width, u32 height, u32 bytes and the bytes; at
-// the end it prints how often OpenNI2 reported a device. A program of its own, because another libfreenect is
-// put under it, which may end the process. usage: kinect_player OUT FRAMES SENSORS [RETURNS]: until so many
-// frames came, or the device was lost; then, with RETURNS, until it has come back so often.
+// the end it prints how often OpenNI2 reported a device. It is a program of its own because the test replaces
+// libfreenect in it, which may end the process.
+// Usage: kinect_player OUT FRAMES SENSORS [RETURNS]. It plays until FRAMES frames came or the device was
+// lost; then, with RETURNS, until the device has come back RETURNS times.
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>

@@ -9,7 +9,7 @@ using std::chrono::milliseconds;
 
 class StreamClockTest : public ::testing::Test {
  protected:
-  // The time of a frame that comes so many ms after the test began.
+  // The time of a frame that comes `machine_ms` after the test began.
   std::int64_t at(int machine_ms, std::int64_t device_us) {
     return clock_.time_us(device_us, start_ + milliseconds(machine_ms));
   }

@@ -59,7 +59,7 @@ TEST(Evaluator, PointsAreThoseOfModelAndSelector) {
 
 // With classes every model gives up to kVoidReserve times as many points, the same ones first, and those on
 // unlabelled pixels of class 0 are void.
-TEST(Evaluator, ClassesTellVoidFromStructure) {
+TEST(Evaluator, ClassesSeparateVoidFromStructure) {
   Frame frame = table_frame();
   const EvalPlan plan = small_plan();
   WorkerPool pool(1);

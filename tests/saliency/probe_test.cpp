@@ -119,7 +119,7 @@ TEST(Probe, SaysWhyAPlaneScoresNothing) {
   EXPECT_THAT(verdicts(lonely, 20, 0), testing::Contains(half_empty));
 }
 
-TEST(Probe, NoReadingAndNoNormalAreTold) {
+TEST(Probe, ReportsNoReadingAndNoNormal) {
   const cv::Size size(64, 48);
   cv::Mat1f depth(size, 1000.0F);
   depth(cv::Rect(20, 20, 9, 9)) = 0;

@@ -39,7 +39,7 @@ TEST(Headline, SaysHowTheSourceDoes) {
   EXPECT_EQ(headline({}, now).text, "No source");
 }
 
-TEST(RecordingLine, TellsTimeSizeSpaceAndDrops) {
+TEST(RecordingLine, ShowsTimeSizeSpaceAndDrops) {
   EXPECT_EQ(recording_line({}).text, "");
   RecordingStatus recording{.phase = RecordingStatus::Phase::recording,
                             .file = "a.oni",

@@ -61,7 +61,7 @@ TEST(ComparedSettings, SidesShareSourceAndProgram) {
   EXPECT_EQ(settings.a.sensor.exposure, 7) << "it is not swapped";
 }
 
-class LoadTuningTest : public FolderTest {
+class LoadSettingsTest : public FolderTest {
  protected:
   std::vector<std::string> load(std::string_view text, bool into_b = false) {
     write_file(folder_ / "s.toml", text);
@@ -70,7 +70,7 @@ class LoadTuningTest : public FolderTest {
   ComparedSettings settings_;
 };
 
-TEST_F(LoadTuningTest, WhatTheFileDoesNotSayIsTheDefaultOrStays) {
+TEST_F(LoadSettingsTest, WhatTheFileDoesNotSayIsTheDefaultOrStays) {
   settings_.a = all_changed();
   share_source(settings_);
   EXPECT_THAT(load("kernel = 21"), IsEmpty());
@@ -80,7 +80,7 @@ TEST_F(LoadTuningTest, WhatTheFileDoesNotSayIsTheDefaultOrStays) {
   EXPECT_EQ(settings_.a.workers, 3);
 }
 
-TEST_F(LoadTuningTest, CameraAndSensorHoldForBothSides) {
+TEST_F(LoadSettingsTest, CameraAndSensorHoldForBothSides) {
   EXPECT_THAT(load("model = \"centre\"\nintrinsics = \"400,410,300,200\"\nmirror = true\n", true), IsEmpty());
   EXPECT_EQ(settings_.a.model, "symmetry3d");
   EXPECT_EQ(settings_.b.model, "centre");
@@ -91,13 +91,13 @@ TEST_F(LoadTuningTest, CameraAndSensorHoldForBothSides) {
   }
 }
 
-TEST_F(LoadTuningTest, WhatAWindowDoesNotTakeUpIsTold) {
+TEST_F(LoadSettingsTest, ReportsSettingsThatAWindowIgnores) {
   EXPECT_THAT(load("workers = 1\nframes = 9\nkernel = 9"), ElementsAre("frames", "workers"));
   EXPECT_EQ(settings_.a.workers, 0);
   EXPECT_EQ(settings_.a.kernel, 9);
 }
 
-TEST_F(LoadTuningTest, ABadFileChangesNothing) {
+TEST_F(LoadSettingsTest, ABadFileChangesNothing) {
   EXPECT_THROW(load("kernel = 9\nno-such = 1"), Error);
   EXPECT_EQ(settings_, ComparedSettings{});
 }

@@ -13,7 +13,7 @@ using namespace std::chrono_literals;
 
 constexpr auto kGenerous = 20s;
 
-TEST(DeviceWatch, TellsWhatComesAndGoesWhileItIsActive) {
+TEST(DeviceWatch, ReportsArrivalsAndRemovalsWhileItIsActive) {
   std::atomic<int> looks = 0;
   std::counting_semaphore<> changes(0);
   DeviceWatch watch(

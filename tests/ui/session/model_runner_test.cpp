@@ -55,7 +55,7 @@ void expect_same(const Computed& x, const Computed& y) {
 
 constexpr RequestedOutputs kAll = {.levels = true, .normals = true};
 
-TEST(ModelRunner, WhatIsKeptEqualsWhatIsComputed) {
+TEST(ModelRunner, ReusedMapsEqualComputedOnes) {
   WorkerPool pool(2);
   Computed last;
   last.result.frame = ball_frame({96, 80});
@@ -163,7 +163,7 @@ class InteractiveProcessorTest : public ::testing::Test {
   std::function<void()> on_publish_;
 };
 
-TEST_F(InteractiveProcessorTest, PublishesADraftAndThenTheWhole) {
+TEST_F(InteractiveProcessorTest, PublishesADraftAndThenTheExactMap) {
   const Settings slow = with_kernel(127);
   ASSERT_TRUE(draft_of(slow, {160, 120}));
   InteractiveProcessor processor({slow, {}, {}}, 1, hooks());
@@ -197,7 +197,7 @@ TEST_F(InteractiveProcessorTest, WhatDidNotChangeIsNotComputedAgain) {
   expect_same(published_[2]->b, expected(slow));
 }
 
-TEST_F(InteractiveProcessorTest, ANewRequestComesBeforeTheWholeOfAnOldOne) {
+TEST_F(InteractiveProcessorTest, ANewRequestComesBeforeTheExactMapOfAnOldOne) {
   InteractiveProcessor processor({with_kernel(127), {}, {}}, 1, hooks());
   on_publish_ = [&] {
     if (published_.size() == 1) processor.set_compute_request({with_kernel(9), {}, {}}, 2);

@@ -34,7 +34,7 @@ TEST(OrbitCamera, AtTheSensorTheWholeImageIsInSightInAViewportOfAnyShape) {
   }
 }
 
-TEST(OrbitCamera, WhatIsNearFollowsAnOrbitDrag) {
+TEST(OrbitCamera, NearPointsFollowAnOrbitDrag) {
   OrbitCamera eye = camera();
   eye.orbit({100, 0}, kViewport);
   EXPECT_NEAR(cv::norm(eye.eye_mm() - eye.target_mm()), 1000, 1e-9) << "stays on the sphere";
@@ -101,7 +101,7 @@ TEST(OrbitCamera, MatricesSayTheSameAsProject) {
   EXPECT_LT(std::abs(clip[2] / clip[3]), 1) << "between the clip planes";
 }
 
-TEST(OrbitCamera, WhatIsBehindTheEyeIsNowhere) {
+TEST(OrbitCamera, PointsBehindTheEyeAreNotProjected) {
   EXPECT_FALSE(camera().project({0, 0, -500}, kViewport).has_value());
   EXPECT_FALSE(camera().project({0, 0, 0}, kViewport).has_value());
 }

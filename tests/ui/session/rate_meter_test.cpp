@@ -18,7 +18,7 @@ TEST(RateMeter, CountsTheLastTwoSeconds) {
   EXPECT_EQ(meter.rate_hz(), 0) << "nothing comes any more";
 }
 
-TEST(RateMeter, AnotherSourceBeginsAnew) {
+TEST(RateMeter, AnotherSourceRestartsIt) {
   RateMeter meter;
   const RateMeter::Time now{100s};
   meter.count(500, now);

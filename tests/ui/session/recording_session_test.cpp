@@ -34,7 +34,7 @@ class RecordingSessionTest : public FolderTest {
   RecordingSession session_;
 };
 
-TEST_F(RecordingSessionTest, WritesWhatIsOfferedBetweenStartAndStop) {
+TEST_F(RecordingSessionTest, WritesFramesOfferedBetweenStartAndStop) {
   const auto file = folder_ / "a.oni";
   EXPECT_EQ(session_.status().phase, Phase::idle);
   session_.offer(frame_at(0, 500));  // nobody records yet
@@ -72,7 +72,7 @@ TEST_F(RecordingSessionTest, TimeGoesOnAfterASeekBack) {
   EXPECT_EQ(times, (std::vector<std::int64_t>{0, 40'000, 73'333, 113'333}));
 }
 
-TEST_F(RecordingSessionTest, AnErrorEndsTheRecordingAndIsTold) {
+TEST_F(RecordingSessionTest, AnErrorEndsTheRecordingAndIsReported) {
   session_.start(folder_ / "a.oni", {});
   session_.offer(frame_at(0, 900));
   Frame other = frame_at(40'000, 900);

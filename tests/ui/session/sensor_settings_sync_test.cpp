@@ -10,7 +10,7 @@ constexpr std::nullopt_t kNone = std::nullopt;
 const SensorValues kMirror{kNone, true, kNone, kNone, kNone}, kAutomatic{kNone, kNone, true, kNone, kNone},
     kByHand{kNone, kNone, false, kNone, kNone}, kDevice{true, false, true, 40, true};
 
-TEST(SensorWishes, WhatIsAskedForIsInTheSettingsAndComesOutAgain) {
+TEST(SensorSettingsSync, RequestedValuesMakeARoundTrip) {
   const SensorSettings before;
   SensorSettings after = before;
   store_request(after, kMirror, kDevice);
@@ -24,7 +24,7 @@ TEST(SensorWishes, WhatIsAskedForIsInTheSettingsAndComesOutAgain) {
   EXPECT_EQ(changed_values(after, after), SensorValues{});
 }
 
-TEST(SensorWishes, ExposureStaysAsItIsWhenItIsNoLongerAutomatic) {
+TEST(SensorSettingsSync, ExposureStaysAsItIsWhenItIsNoLongerAutomatic) {
   SensorSettings settings;
   store_request(settings, kByHand, kDevice);
   EXPECT_EQ(settings.exposure, 40);
@@ -40,7 +40,7 @@ TEST(SensorWishes, ExposureStaysAsItIsWhenItIsNoLongerAutomatic) {
   EXPECT_FALSE(settings.exposure) << "the device does not say any";
 }
 
-TEST(SensorWishes, TheModeIsForTheNextOpening) {
+TEST(SensorSettingsSync, TheModeIsForTheNextOpening) {
   SensorSettings other;
   other.mode = SensorMode{320, 240, 30};
   EXPECT_EQ(changed_values({}, other), SensorValues{});

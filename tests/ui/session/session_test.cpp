@@ -105,7 +105,7 @@ TEST_F(SessionTest, ResultsThatAreHeldDoNotChange) {
   EXPECT_EQ(cv::norm(held->a.result.maps.master, map, cv::NORM_INF), 0);
 }
 
-TEST_F(SessionTest, APausedFrameIsComputedAnewWithTheNewestWishes) {
+TEST_F(SessionTest, APausedFrameIsComputedAgainWithTheNewestRequest) {
   const auto session = make();
   session->playback().pause();
   session->open({.uri = "ball"});
@@ -141,7 +141,7 @@ TEST_F(SessionTest, ComparesTwoSettingsOnOneFrame) {
   EXPECT_EQ(result->a.result.maps.normals.size(), cv::Size(64, 48));
 }
 
-TEST_F(SessionTest, WhatCannotBeComputedIsToldAndMended) {
+TEST_F(SessionTest, AComputationThatFailsIsReportedAndRecovers) {
   const auto session = make();
   session->playback().pause();
   session->open({.uri = "ball"});
@@ -158,7 +158,7 @@ TEST_F(SessionTest, WhatCannotBeComputedIsToldAndMended) {
   ASSERT_TRUE(wait_for([&] { return session->latest()->a.error.empty(); }));
 }
 
-TEST_F(SessionTest, ASourceThatFailsIsToldAndAnotherCanBeOpened) {
+TEST_F(SessionTest, ASourceThatFailsIsReportedAndAnotherCanBeOpened) {
   const auto session = make();
   session->open({.uri = "absent"});
   ASSERT_TRUE(wait_for([&] { return session->state().phase == Phase::ended; }));
@@ -184,7 +184,7 @@ TEST_F(SessionTest, SeeksExactly) {
   }
 }
 
-TEST_F(SessionTest, AStartBehindTheEndIsToldAsSuch) {
+TEST_F(SessionTest, AStartPastTheEndIsReported) {
   const auto session = make();
   session->open({.uri = "ball", .range = {.start = 30}});
   ASSERT_TRUE(wait_for([&] { return session->state().phase == Phase::ended; }));

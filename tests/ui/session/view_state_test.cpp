@@ -124,7 +124,7 @@ TEST(ViewState, StepsThroughModelsKernelsAndSpeeds) {
   EXPECT_EQ(next_speed(0.1, -1), 0.1);
 }
 
-TEST(CommandLine, SaysOnlyWhatIsNotTheDefault) {
+TEST(CommandLine, HoldsOnlySettingsThatDifferFromTheDefault) {
   Settings s;
   EXPECT_EQ(run_command_line("a b.oni", s, 7), "saccade run 'a b.oni' --out out/view --frames 1 --start 7");
   s.kernel = 31;

@@ -73,7 +73,7 @@ class ViewerTest : public XProgramTest {
     xdotool("keydown Return sleep 0.5 keyup Return");
   }
 
-  // Records until so many frames are written; the file, which is a whole recording.
+  // Records until at least `frames` are written; returns the file, a sound recording.
   std::filesystem::path record_and_check(int frames) const {
     xdotool("key r");
     EXPECT_TRUE(
