@@ -95,7 +95,8 @@ FolderListing list_osd(const fs::path& folder) {
 extern const SourceKind kOsdKind = {
     .name = "osd",
     .written = "FOLDER",
-    .help = "Object Segmentation Database: depth/, disparity/ or point_cloud/, with image_color/, annotation/",
+    .help =
+        "Object Segmentation Database: depth/, disparity/ or point_cloud/, with image_color/, annotation/",
     .recognised_by = "image_color/ or annotation/ beside depth/, disparity/ or point_cloud/",
     .recognises = has_osd_folders,
     .open = [](const SourceInput& input,

@@ -12,7 +12,8 @@ HWY_BEFORE_NAMESPACE();
 namespace saccade {
 namespace HWY_NAMESPACE {
 
-/// Does 12 multiply-adds of a vector a round, enough to hide their latency; the result depends on all of them.
+/// Does 12 multiply-adds of a vector a round, enough to hide their latency; the result depends on all of
+/// them.
 float multiply_add(long rounds) {
   namespace hn = hwy::HWY_NAMESPACE;
   const hn::ScalableTag<float> d;
