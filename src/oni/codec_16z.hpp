@@ -52,7 +52,7 @@ class Encoder16z {
 };
 
 /// The most bytes that encode() appends for `pixels` pixels.
-constexpr std::size_t max_size_16z(std::size_t pixels) { return 3 * pixels + 2 + 2 + 2 * 65536; }
+constexpr std::size_t max_size_16z(std::size_t pixels) { return 3 * pixels + 2 + 2 + std::size_t{2} * 65536; }
 
 /// False if a payload of `bytes` is too short for `pixels`: a byte holds at most 60.
 constexpr bool may_hold_16z(std::size_t bytes, std::size_t pixels) { return pixels / 60 <= bytes; }

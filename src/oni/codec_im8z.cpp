@@ -21,7 +21,7 @@ class Im8zReader {
 
  private:
   const char* code(unsigned c) {
-    if (c >= 0xE0 && c < 0xF0) return repeat(2 * (c - 0xE0));
+    if (c >= 0xE0 && c < 0xF0) return repeat(std::size_t{2} * (c - 0xE0));
     if (c < 0xE0) {
       current_ = static_cast<std::uint8_t>(current_ - ((c >> 4) - 6));
       const char* fault = repeat(1);

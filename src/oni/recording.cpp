@@ -80,13 +80,13 @@ Outcome Recording::read_payload(const OniFrameEntry& frame) {
 
 Outcome Recording::read_stored_depth(const OniNode& node, std::size_t k, cv::Mat1w& depth) {
   const OniFrameEntry& frame = node.frames.at(k);
-  if (const Outcome read = read_payload(frame); !read) return read;
+  if (Outcome read = read_payload(frame); !read) return read;
   return decoder_.decode_depth(node.declared.codec, format(node, k),
                                std::span(payload_).first(frame.payload_size), depth);
 }
 
 Outcome Recording::read_depth(const OniNode& node, std::size_t k, cv::Mat1f& depth_mm) {
-  if (const Outcome read = read_stored_depth(node, k, stored_); !read) return read;
+  if (Outcome read = read_stored_depth(node, k, stored_); !read) return read;
   const std::uint64_t position = node.frames[k].payload_position;
   depth_to_mm(stored_, format_at(node, position).pixels, node.property(oni_property::kShiftToDepth, position),
               depth_mm);
@@ -95,7 +95,7 @@ Outcome Recording::read_depth(const OniNode& node, std::size_t k, cv::Mat1f& dep
 
 Outcome Recording::read_colour(const OniNode& node, std::size_t k, cv::Mat3b& image) {
   const OniFrameEntry& frame = node.frames.at(k);
-  if (const Outcome read = read_payload(frame); !read) return read;
+  if (Outcome read = read_payload(frame); !read) return read;
   return decoder_.decode_colour(node.declared.codec, format(node, k),
                                 std::span(payload_).first(frame.payload_size), image);
 }

@@ -15,8 +15,8 @@ std::vector<std::unique_ptr<Result>> make_slots(const PipelineOptions& options) 
   const int least = options.policy == FramePolicy::newest ? 3 : 2;
   if (options.slots < least || options.frames.every < 1 || options.frames.start < 0)
     throw std::invalid_argument("Pipeline: slots >= 2 (newest: 3), every >= 1 and start >= 0 expected");
-  std::vector<std::unique_ptr<Result>> slots;
-  for (int i = 0; i < options.slots; ++i) slots.push_back(std::make_unique<Result>());
+  std::vector<std::unique_ptr<Result>> slots(static_cast<std::size_t>(options.slots));
+  for (auto& slot : slots) slot = std::make_unique<Result>();
   return slots;
 }
 
