@@ -35,7 +35,7 @@ struct Attention {
                     ///< the `wta` selector all 0
 };
 
-/// Chooses attention points in a saliency map (SPEC section 4). Keeps memory between frames.
+/// Chooses attention points in a saliency map (README.md). Keeps memory between frames.
 /// Thread safety: one select() at a time per object.
 class AttentionSelector {
  public:

@@ -75,6 +75,7 @@ void ProtoSelector::select(const cv::Mat1f& saliency, const cv::Mat1f& depth_mm,
   begin_attention(saliency, depth_mm, camera, attention);
   grid_.build(depth_mm, camera);
   segments_.grow(grid_);
+  borders_.measure(grid_, segments_);
   smooth_cells(saliency, scratch_, value_);
   set_rays(depth_mm.size(), camera);
   make_return_table();
@@ -99,14 +100,19 @@ void ProtoSelector::select(const cv::Mat1f& saliency, const cv::Mat1f& depth_mm,
 }
 
 void ProtoSelector::weigh() {
+  weight_.reserve(grid_.size() / SurfaceSegments::kFewestCells);
+  weight_.resize(at(segments_.count()));
+  for (int segment = 0; segment < segments_.count(); ++segment)
+    weight_[at(segment)] = (segments_.is_supporting_plane(segment) ? kSupportingPlaneWeight : 1) *
+                           (borders_.front_share(segment) < kFrontShare ? kBehindWeight : 1);
   row_best_.assign(at(grid_.rows()), 0.0F);
   for (int r = 0, i = 0; r < grid_.rows(); ++r)
     for (int c = 0; c < grid_.cols(); ++c, ++i) {
       const int segment = segments_.of_cell()[at(i)];
       if (grid_.depth_mm()[at(i)] == 0)
         value_[at(i)] = 0;
-      else if (segment != SurfaceSegments::kNone && segments_.is_supporting_plane(segment))
-        value_[at(i)] *= kSupportingPlaneWeight;
+      else if (segment != SurfaceSegments::kNone)
+        value_[at(i)] *= weight_[at(segment)];
       row_best_[at(r)] = std::max(row_best_[at(r)], value_[at(i)]);
     }
 }

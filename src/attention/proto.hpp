@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "attention/attention.hpp"
+#include "attention/border_ownership.hpp"
 #include "attention/surface_grid.hpp"
 #include "attention/surface_segments.hpp"
 
@@ -16,10 +17,11 @@ void smooth_cells(const cv::Mat1f& saliency, std::vector<float>& scratch, std::v
 
 /// Selector `proto`: one fixation per proto-object.
 ///
-/// Works on the cells of SurfaceGrid. The saliency is smoothed (smooth_cells); cells without depth are out of
-/// the race. Cells of a supporting plane (SurfaceSegments) count kSupportingPlaneWeight of their value:
-/// coarse pyramid levels spread an object's saliency over the table before it, and a plane behind the things
-/// is no object while there are others. Then, as often as asked:
+/// Works on the cells of SurfaceGrid. The saliency is smoothed (smooth_cells); cells without depth cannot
+/// win. Cells of a supporting plane (SurfaceSegments) count kSupportingPlaneWeight of their value: coarse
+/// pyramid levels spread an object's saliency over the table before it, and a plane behind the things is no
+/// object while there are others. Cells of a segment that is seen behind other things, with less than
+/// kFrontShare of its border its own (BorderOwnership), count kBehindWeight. Then, as often as asked:
 ///  - the winner is the cell with the largest value; ties: lowest row, then lowest column;
 ///  - the fixation is its pixel of the highest saliency on the cell's surface; ties as before;
 ///  - its proto-object is the segment of the cell; on a supporting plane, or where there is no
@@ -33,6 +35,8 @@ void smooth_cells(const cv::Mat1f& saliency, std::vector<float>& scratch, std::v
 class ProtoSelector : public AttentionSelector {
  public:
   static constexpr float kSupportingPlaneWeight = 0.02F;
+  static constexpr float kFrontShare = 0.1F;
+  static constexpr float kBehindWeight = 0.1F;
   static constexpr int kDiscCells = 10;   ///< radius; 40 px
   static constexpr int kMarginCells = 3;  ///< radius; 12 px
   static constexpr float kReturnDepth = 0.6F;
@@ -58,6 +62,8 @@ class ProtoSelector : public AttentionSelector {
   int fixations_;
   SurfaceGrid grid_;
   SurfaceSegments segments_;
+  BorderOwnership borders_;
+  std::vector<float> weight_;  ///< by segment
   std::vector<float> scratch_, value_;
   std::vector<float> row_best_;       ///< largest value of each row
   std::vector<float> return_table_;   ///< exp(-d^2 / 2 s^2) by d in cells

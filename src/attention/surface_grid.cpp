@@ -12,14 +12,10 @@ namespace {
 constexpr int kCell = SurfaceGrid::kCellPx;
 constexpr int kReach = 2;  // cells; of the normals' window and of the baseline of the concavity test
 
-// A depth jump, as a part of the depth; in a sensor whose noise grows with z^2 it must grow so beyond 1 m.
-constexpr float kJump = 0.012F;
 // Concave: the normals kReach cells to both sides turn towards each other by more than this along the line
 // between them (the sine of some 17 degrees; more with the noise of far surfaces).
 constexpr float kConcave = 0.3F, kConcavePerMetre = 0.1F;
 constexpr float kConcaveReach = 0.05F;  // of the depth; farther apart in depth is a jump and no edge
-
-constexpr float kMetre = 1e-3F;
 
 // By value: compilers make no vectors of std::min and std::max, which give references.
 constexpr float lower(float a, float b) { return a < b ? a : b; }
@@ -118,8 +114,7 @@ void SurfaceGrid::set_normal(std::size_t i, int row, int col, float slope_u, flo
 }
 
 // The plane fit with some of the cells missing or on another surface, for kLanes cells of a row at once. The
-// sums over u come first, then those over v; u and v are whole numbers, so that all but the sums of w are
-// exact.
+// sums over u come first, then those over v; u and v are integers, so only the sums of w are rounded.
 void SurfaceGrid::normals_with_gaps(int row, int first_col) {
   using Lanes = cv::v_float32x4;
   const std::size_t stride = padded_stride(),
@@ -243,7 +238,7 @@ void SurfaceGrid::mark_concave(int begin, int end, int step) {
     const int a = i - step, b = i + step;
     const float px = x[b] - x[a], py = y[b] - y[a], pz = z[b] - z[a];
     const float turn = (nx[b] - nx[a]) * px + (ny[b] - ny[a]) * py + (nz[b] - nz[a]) * pz;
-    const float farther = kMetre * z[i] - 1;
+    const float farther = kPerMetre * z[i] - 1;
     const float limit = kConcave + kConcavePerMetre * (farther > 0 ? farther : 0);
     const float towards = turn < 0 ? turn * turn : 0;
     const float away_a = std::abs(z[a] - z[i]), away_b = std::abs(z[b] - z[i]);
@@ -260,7 +255,7 @@ void SurfaceGrid::find_links() {
   links_.assign(size(), 0);
   const auto linked = [this](std::size_t a, std::size_t b) {
     const float dx = x_[b] - x_[a], dy = y_[b] - y_[a], dz = z_[b] - z_[a];
-    const float jump = kJump * z_[a] * std::max(1.0F, kMetre * z_[a]);
+    const float jump = jump_mm(z_[a]);
     const float from_a = std::abs(nx_[a] * dx + ny_[a] * dy + nz_[a] * dz);
     const float from_b = std::abs(nx_[b] * dx + ny_[b] * dy + nz_[b] * dz);
     return (z_[a] > 0) & (z_[b] > 0) &

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -25,16 +26,22 @@ class SurfaceGrid {
   /// hold fewer pixels.
   void build(const cv::Mat1f& depth_mm, const Intrinsics& camera);
 
+  /// A step in depth that is larger than this ends a surface; mm. Grows with z, and beyond 1 m with z^2, as
+  /// the noise of sensors does.
+  static float jump_mm(float depth_mm) { return kJump * depth_mm * std::max(1.0F, kPerMetre * depth_mm); }
+
   int rows() const { return rows_; }
   int cols() const { return cols_; }
   std::size_t size() const { return z_.size(); }
+  /// Of the cells: pixel (row, col) of it is the middle of cell (row, col).
+  const Intrinsics& camera() const { return camera_; }
 
   /// Depth of each cell: mean over the pixels that differ by at most kSameSurface from the cell's first valid
   /// pixel, counted from its middle. 0 = no pixel has depth.
   const std::vector<float>& depth_mm() const { return z_; }
   const std::vector<float>& inverse_depth() const { return w_; }  ///< 1/mm, 0 = no depth
 
-  /// Unit normals towards the camera, (0,0,0) = none: a plane in inverse depth, as SPEC 1.3, over the 5 x 5
+  /// Unit normals towards the camera, (0,0,0) = none: a plane in inverse depth over the 5 x 5
   /// cells around.
   const std::vector<float>& normal_x() const { return nx_; }
   const std::vector<float>& normal_y() const { return ny_; }
@@ -49,6 +56,9 @@ class SurfaceGrid {
   static constexpr float kSameSurface = 0.02F;  ///< of the depth; beyond it is another surface
 
  private:
+  static constexpr float kJump = 0.012F;     // of the depth
+  static constexpr float kPerMetre = 1e-3F;  // 1/mm
+
   void make_cells(const cv::Mat1f& depth_mm);
   float cell_depth(const cv::Mat1f& depth_mm, int row, int col) const;
   void make_normals();
@@ -65,7 +75,7 @@ class SurfaceGrid {
   std::size_t padded_stride() const { return static_cast<std::size_t>(cols_) + 4 + kLanes; }
 
   int rows_ = 0, cols_ = 0;
-  Intrinsics camera_;  ///< of the cells: pixel (row, col) of the grid is the middle of cell (row, col)
+  Intrinsics camera_;
   std::vector<float> x_, y_, z_, w_, nx_, ny_, nz_;
   std::vector<float> lowest_, highest_, sum_, sum_u_;  ///< of five cells in a row
   std::vector<float> padded_z_, padded_w_;             ///< with a frame of cells without depth

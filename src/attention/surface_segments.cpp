@@ -6,12 +6,8 @@
 namespace saccade {
 namespace {
 
-constexpr int kFewestCells = 6;          // of a segment
-constexpr double kPlaneShare = 0.15;     // of all cells with depth: the least size of a supporting plane
-constexpr double kPlaneInSegment = 0.5;  // the least part of its segment that a supporting plane takes
-constexpr double kPlane = 0.012;       // of the depth: as far as a cell in the plane may be from it to fit it
-constexpr double kPlaneRough = 0.036;  // the same while the plane is not yet known well
-constexpr double kOffPlane = 0.018;    // of the depth: farther from the plane is another surface
+constexpr double kPlaneShare = 0.15;          // of all cells with depth: the least size of a supporting plane
+constexpr double kOffPlane = 0.018;           // of the depth: farther from the plane is another surface
 constexpr int kUngrown = -2, kTooSmall = -3;  // in of_cell_ while it is made
 
 // Calls visit(neighbour) for the cells that `i` is linked to: up, left, right, down.
@@ -24,16 +20,11 @@ void for_linked(const SurfaceGrid& grid, int i, Visit visit) {
   if (links & SurfaceGrid::kDown) visit(i + grid.cols());
 }
 
-double distance_from(const SurfaceSegments::Plane& plane, const SurfaceGrid& grid, int i) {
-  const double w = static_cast<double>(grid.inverse_depth()[static_cast<std::size_t>(i)]);
-  return std::abs(plane.a * (i % grid.cols()) + plane.b * (i / grid.cols()) + plane.c - w) / w;
-}
-
 }  // namespace
 
 void SurfaceSegments::grow(const SurfaceGrid& grid) {
-  cols_ = grid.cols();
   segments_.clear();
+  segments_.reserve(grid.size() / kFewestCells);
   queue_.clear();
   queue_.reserve(grid.size());
   of_cell_.assign(grid.size(), kUngrown);
@@ -94,52 +85,28 @@ void SurfaceSegments::find_supporting_planes(const SurfaceGrid& grid) {
   const auto valid =
       std::count_if(grid.depth_mm().begin(), grid.depth_mm().end(), [](float z) { return z > 0; });
   const double least = kPlaneShare * static_cast<double>(valid);
+  cells_.reserve(grid.size());
   for (int segment = 0; segment < count(); ++segment) {
     const double cells = segments_[static_cast<std::size_t>(segment)].cells;
     if (cells < least) continue;
-    Plane plane;
-    const double in_plane = fit_plane(grid, segment, plane);
-    if (in_plane < kPlaneInSegment || in_plane * cells < least) continue;
+    cells_.clear();
+    for (int i = 0; i < static_cast<int>(grid.size()); ++i)
+      if (of_cell_[static_cast<std::size_t>(i)] == segment) cells_.push_back(i);
+    const auto found = plane_search_.find(grid, cells_);
+    if (!found || found->share * cells < least) continue;
     segments_[static_cast<std::size_t>(segment)].supporting_plane = true;
-    cut_from_plane(grid, segment, plane);
+    cut_from_plane(grid, segment, found->plane);
   }
 }
 
-// Least squares in inverse depth over every fourth cell of the segment, again on the cells near the plane so
-// found. Gives the part of the segment that lies in it.
-double SurfaceSegments::fit_plane(const SurfaceGrid& grid, int segment, Plane& plane) const {
-  constexpr int kRounds = 6, kEvery = 2;
-  double share = 0;
-  for (int round = 0; round < kRounds; ++round) {
-    const double reach = round == 1 ? kPlaneRough : kPlane;
-    double all = 0, n = 0, su = 0, sv = 0, suu = 0, svv = 0, suv = 0, sw = 0, suw = 0, svw = 0;
-    for (int r = 0; r < grid.rows(); r += kEvery)
-      for (int c = 0; c < cols_; c += kEvery) {
-        const int i = r * cols_ + c;
-        if (of_cell_[static_cast<std::size_t>(i)] != segment) continue;
-        all += 1;
-        if (round > 0 && distance_from(plane, grid, i) > reach) continue;
-        const double w = static_cast<double>(grid.inverse_depth()[static_cast<std::size_t>(i)]);
-        n += 1, su += c, sv += r, suu += c * c, svv += r * r, suv += r * c;
-        sw += w, suw += c * w, svw += r * w;
-      }
-    const double uu = n * suu - su * su, vv = n * svv - sv * sv, uv = n * suv - su * sv;
-    const double determinant = uu * vv - uv * uv;
-    if (n < 3 || determinant <= 0) return 0;
-    const double uw = n * suw - su * sw, vw = n * svw - sv * sw;
-    plane.a = (uw * vv - vw * uv) / determinant;
-    plane.b = (vw * uu - uw * uv) / determinant;
-    plane.c = (sw - plane.a * su - plane.b * sv) / n;
-    share = n / all;
-  }
-  return share;
-}
-
-void SurfaceSegments::cut_from_plane(const SurfaceGrid& grid, int segment, const Plane& plane) {
+void SurfaceSegments::cut_from_plane(const SurfaceGrid& grid, int segment, const InversePlane& plane) {
   const int cells = static_cast<int>(grid.size());
   for (int i = 0; i < cells; ++i)
-    if (of_cell_[static_cast<std::size_t>(i)] == segment && distance_from(plane, grid, i) > kOffPlane)
-      of_cell_[static_cast<std::size_t>(i)] = kUngrown;
+    if (of_cell_[static_cast<std::size_t>(i)] == segment) {
+      const double w = static_cast<double>(grid.inverse_depth()[static_cast<std::size_t>(i)]);
+      if (std::abs(plane.at(i, grid.cols()) - w) > kOffPlane * w)
+        of_cell_[static_cast<std::size_t>(i)] = kUngrown;
+    }
   grow_rest(grid);
 }
 

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "attention/plane_search.hpp"
 #include "attention/surface_grid.hpp"
 
 namespace saccade {
@@ -12,13 +13,14 @@ namespace saccade {
 /// cells over links between convex or coplanar neighbours; a concave edge or a depth jump ends it. The cells
 /// of the concave edges themselves go to the nearest segment.
 ///
-/// A segment that is large and mostly one plane is a *supporting plane*: table, floor, wall. What does not
-/// lie in its plane is cut off from it and makes segments of its own, so that an object is not lost if some
+/// A segment that holds a large plane is a *supporting plane*: table, floor, wall (README.md, sections 3 and
+/// 4). Cells off the plane are cut off and make segments of their own, so that an object is not lost if some
 /// gap in its concave edge let the table in. Keeps its memory between frames. Thread safety: one grow() at a
 /// time per object; reading is free.
 class SurfaceSegments {
  public:
   static constexpr int kNone = -1;
+  static constexpr int kFewestCells = 6;  ///< of a segment
 
   void grow(const SurfaceGrid& grid);
 
@@ -29,11 +31,6 @@ class SurfaceSegments {
     return segments_[static_cast<std::size_t>(segment)].supporting_plane;
   }
 
-  /// A supporting plane in inverse depth: 1/z = a*col + b*row + c, 1/mm, with cells as unit.
-  struct Plane {
-    double a = 0, b = 0, c = 0;
-  };
-
  private:
   struct Segment {
     int cells = 0;
@@ -43,13 +40,13 @@ class SurfaceSegments {
   void grow_convex(const SurfaceGrid& grid);
   void flood_edges(const SurfaceGrid& grid);
   void find_supporting_planes(const SurfaceGrid& grid);
-  double fit_plane(const SurfaceGrid& grid, int segment, Plane& plane) const;
-  void cut_from_plane(const SurfaceGrid& grid, int segment, const Plane& plane);
+  void cut_from_plane(const SurfaceGrid& grid, int segment, const InversePlane& plane);
   void grow_rest(const SurfaceGrid& grid);
 
-  int cols_ = 0;
+  PlaneSearch plane_search_;
   std::vector<int> of_cell_;
   std::vector<int> queue_;
+  std::vector<int> cells_;  ///< of the segment that may be a plane
   std::vector<Segment> segments_;
 };
 

@@ -15,6 +15,7 @@ namespace saccade {
 namespace {
 
 constexpr int kMost = 10;
+const std::filesystem::path kScenes = std::filesystem::path(SACCADE_SHARED_DIR) / "data/osd_learn";
 
 struct HitRatio {
   std::array<double, kMost> hit{}, bound{};  ///< sums over the images, of n = 1..10
@@ -50,7 +51,7 @@ HitRatio measure(Selector selector, int& images) {
   images = 0;
   for (int frame = 0; frame < 45; frame += 3) {
     const std::string number = std::to_string(10000 + frame).substr(1);
-    const std::string base = std::string(SACCADE_SHARED_DIR) + "/data/osd_learn/" + number;
+    const std::string base = kScenes / number;
     const cv::Mat depth = cv::imread(base + "_depth.png", cv::IMREAD_UNCHANGED);
     const cv::Mat labels = cv::imread(base + "_label.png", cv::IMREAD_UNCHANGED);
     if (depth.type() != CV_16U || labels.type() != CV_8U || depth.size() != labels.size()) continue;
@@ -65,7 +66,7 @@ HitRatio measure(Selector selector, int& images) {
   return ratio;
 }
 
-bool have_scenes() { return std::filesystem::exists(std::string(SACCADE_SHARED_DIR) + "/data/osd_learn"); }
+bool have_scenes() { return std::filesystem::exists(kScenes); }
 
 TEST(HitRatio, ProtoFindsTheObjectsOfRealTableScenes) {
   if (!have_scenes()) GTEST_SKIP() << "the real table scenes are not on this machine";

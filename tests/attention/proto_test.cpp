@@ -121,6 +121,23 @@ TEST(ProtoSelector, AThingComesBeforeTheTableUnderTheSameSaliency) {
   EXPECT_EQ(scene.labels(attention.fixations[1].row, attention.fixations[1].col), 0);
 }
 
+// A board with a window before a wall. The window shows a piece of the wall, which owns none of its border.
+TEST(ProtoSelector, AThingInFrontComesBeforeAPieceOfItsBackground) {
+  cv::Mat1f depth(480, 640, 2000.0F);
+  depth(cv::Rect(100, 100, 200, 200)) = 1200.0F;
+  depth(cv::Rect(180, 180, 40, 40)) = 2000.0F;
+  depth(cv::Rect(420, 200, 60, 60)) = 1200.0F;
+  const auto first_fixation = [&](float window) {
+    const cv::Mat1f map = hills(depth.size(), {{{200, 200}, window}, {{450, 230}, 1}});
+    ProtoSelector selector(1);
+    Attention attention;
+    selector.select(map, depth, Intrinsics::guess_for(depth.size()), attention);
+    return depth(attention.fixations.at(0).row, attention.fixations.at(0).col);
+  };
+  EXPECT_EQ(first_fixation(5), 1200);
+  EXPECT_EQ(first_fixation(200), 2000);  // it is a weight and no ban
+}
+
 TEST(ProtoSelector, EndsWithAReasonWhenThereIsNothing) {
   ProtoSelector selector(5);
   Attention attention;
