@@ -2,6 +2,7 @@
 
 #include <cstdlib>
 #include <memory>
+#include <new>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -13,19 +14,14 @@ namespace {
 
 using Context = std::unique_ptr<spng_ctx, void (*)(spng_ctx*)>;
 
-Context make_context(int flags) {
-  Context context(spng_ctx_new(flags), spng_ctx_free);
-  if (!context) throw std::bad_alloc();
-  return context;
-}
-
 void check(int code) {
   if (code != 0) throw std::runtime_error(fmt::format("not a valid PNG: {}", spng_strerror(code)));
 }
 
 Context open(std::span<const std::uint8_t> png, spng_ihdr& header) {
   if (png.empty()) throw std::runtime_error("empty file");
-  Context context = make_context(0);
+  Context context(spng_ctx_new(0), spng_ctx_free);
+  if (!context) throw std::bad_alloc();
   check(spng_set_image_limits(context.get(), 1u << 30,
                               1u << 30));  // our own limit, below, has the clearer message
   check(spng_set_png_buffer(context.get(), png.data(), png.size()));
@@ -99,37 +95,6 @@ cv::Mat decode_png(std::span<const std::uint8_t> png) {
   cv::Mat image(size.height, row_bytes, bits == 16 ? CV_16UC1 : CV_8UC1);
   decode_pixels(context.get(), image, SPNG_FMT_PNG);
   return bits >= 8 ? image : unpack(image, size, bits);
-}
-
-std::vector<std::uint8_t> encode_png(const cv::Mat& image) {
-  if (image.empty() || (image.type() != CV_8UC1 && image.type() != CV_16UC1 && image.type() != CV_8UC3))
-    throw std::invalid_argument("encode_png: 8-bit grey, 16-bit grey or 8-bit BGR expected");
-  cv::Mat pixels;  // continuous, in the file's order; never the caller's own memory
-  if (image.channels() == 3)
-    cv::cvtColor(image, pixels, cv::COLOR_BGR2RGB);
-  else
-    pixels = image.isContinuous() ? image : image.clone();
-
-  const Context context = make_context(SPNG_CTX_ENCODER);
-  spng_ihdr header{};
-  header.width = static_cast<std::uint32_t>(pixels.cols);
-  header.height = static_cast<std::uint32_t>(pixels.rows);
-  header.bit_depth = pixels.depth() == CV_16U ? 16 : 8;
-  header.color_type = pixels.channels() == 3 ? SPNG_COLOR_TYPE_TRUECOLOR : SPNG_COLOR_TYPE_GRAYSCALE;
-  check(spng_set_ihdr(context.get(), &header));
-  check(spng_set_option(context.get(), SPNG_ENCODE_TO_BUFFER, 1));
-  // Level 2 with one filter: a tenth more bytes than the default and a fraction of its time.
-  check(spng_set_option(context.get(), SPNG_IMG_COMPRESSION_LEVEL, 2));
-  check(spng_set_option(context.get(), SPNG_FILTER_CHOICE, SPNG_FILTER_CHOICE_UP));
-  check(spng_encode_image(context.get(), pixels.data, pixels.total() * pixels.elemSize(), SPNG_FMT_PNG,
-                          SPNG_ENCODE_FINALIZE));
-  std::size_t size = 0;
-  int code = 0;
-  const std::unique_ptr<void, void (*)(void*)> buffer(spng_get_png_buffer(context.get(), &size, &code),
-                                                      std::free);
-  check(code);
-  const auto* bytes = static_cast<const std::uint8_t*>(buffer.get());
-  return {bytes, bytes + size};
 }
 
 }  // namespace saccade
