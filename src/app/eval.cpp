@@ -20,6 +20,7 @@
 #include "eval/contact_sheet.hpp"
 #include "eval/figure.hpp"
 #include "eval/page.hpp"
+#include "eval/reliability_figure.hpp"
 #include "eval/report.hpp"
 #include "eval/result_file.hpp"
 #include "pipeline/processor.hpp"
@@ -88,12 +89,19 @@ void write_report(const StoredResults& results, FrameSource* source, const fs::p
   const std::string svg = to_svg(drawing);
   write_file(out / "hr.svg", svg);
   write_file(out / "hr.png", encode_png(to_picture(drawing, kPictureScale)));
+  std::string reliability_svg;
+  if (const auto reliability = draw_reliability(plan, statistics)) {
+    reliability_svg = to_svg(*reliability);
+    write_file(out / "reliability.svg", reliability_svg);
+    write_file(out / "reliability.png", encode_png(to_picture(*reliability, kPictureScale)));
+  }
   std::vector<Example> examples;
   if (source != nullptr) examples = choose_examples(plan, results.images);
   if (source != nullptr)
     write_examples(examples, plan, *source, pool, out, [&] { return interrupt.happened(); });
   if (interrupt.happened()) throw interrupted(out);
-  write_file(out / "index.html", page_html(plan, results.images, statistics, svg, examples));
+  write_file(out / "index.html",
+             page_html(plan, results.images, statistics, {svg, reliability_svg}, examples));
   write_file(out / "report.json", dump(report_json(plan, results.images, statistics), 2) + "\n");
   if (settings.json)
     fmt::print("{}\n", dump(summary_json(results, statistics, out.string())));

@@ -18,8 +18,8 @@ struct EvalArguments {
 
 /// `saccade eval`: the Hit Ratio of every model, kernel and selector on a labelled data set. Each image's
 /// result is appended to OUT/results.jsonl as soon as it is known, so that the same command continues an
-/// interrupted evaluation; then hr.csv, report.json, hr.svg, hr.png, index.html and examples/ are written
-/// into OUT. Throws Error, also if it was interrupted.
+/// interrupted evaluation; then hr.csv, report.json, hr.svg, hr.png, reliability.svg, reliability.png,
+/// index.html and examples/ are written into OUT. Throws Error, also if it was interrupted.
 void eval(const EvalArguments& arguments, const Settings& settings);
 
 /// `saccade eval --merge`: the same files from the results of all shards.

@@ -34,7 +34,7 @@ Fixation fixation_at(const cv::Mat1f& saliency, const cv::Mat1f& depth_mm, const
 std::unique_ptr<AttentionSelector> make_selector(const AttentionSettings& settings) {
   if (settings.selector == Selector::wta)
     return std::make_unique<WtaSelector>(settings.fixations, settings.foa);
-  return std::make_unique<ProtoSelector>(settings.fixations);
+  return std::make_unique<ProtoSelector>(settings.fixations, settings.min_confidence);
 }
 
 }  // namespace saccade

@@ -1,12 +1,14 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include <opencv2/core.hpp>
 
 #include "attention/attention_settings.hpp"
+#include "attention/confidence.hpp"
 #include "core/intrinsics.hpp"
 #include "core/worker_pool.hpp"
 
@@ -25,7 +27,14 @@ struct Fixation {
   float saliency = 0;        ///< of the master map at that pixel
   cv::Point3f position_mm;   ///< the point there, camera frame; (0,0,0) = no reading there
   ProtoObject proto_object;  ///< pixels = 0: none was grown
+  /// Probability that the point lies on an object, 0..1; none: the selector does not estimate it (`wta`).
+  std::optional<float> confidence{};
 };
+
+/// Whether the point lies more probably on nothing than on an object.
+inline bool is_doubtful(const Fixation& fixation) {
+  return fixation.confidence && *fixation.confidence < kProbablyObject;
+}
 
 /// The attention points of one frame, most salient first.
 struct Attention {

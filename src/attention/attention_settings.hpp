@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "attention/confidence.hpp"
 #include "core/setting.hpp"
 
 namespace saccade {
@@ -14,8 +15,9 @@ enum class Selector {
 /// How attention points are chosen.
 struct AttentionSettings {
   Selector selector = Selector::proto;
-  int fixations = 10;  ///< greatest number of points per frame, 1..1000
-  double foa = 64;     ///< diameter of the focus of attention of `wta`, px of the image, 1..1000
+  int fixations = 10;                       ///< greatest number of points per frame, 1..1000
+  double min_confidence = kProbablyObject;  ///< of a point of `proto`, 0..1; 0 = give all points
+  double foa = 64;  ///< diameter of the focus of attention of `wta`, px of the image, 1..1000
 };
 
 std::vector<SettingOf<AttentionSettings>> attention_setting_specs();

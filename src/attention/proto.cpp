@@ -3,9 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <stdexcept>
+#include <string>
 
+#include <fmt/format.h>
+
+#include "attention/confidence.hpp"
 #include "attention/selector.hpp"
 
 namespace saccade {
@@ -43,6 +48,12 @@ void mean_of_cells(const cv::Mat1f& saliency, int rows, int cols, std::vector<fl
   }
 }
 
+// Appends to the text in place, without a string of its own: no memory is taken for a frame.
+void add_reason(int doubtful, double min_confidence, std::string& reasons) {
+  fmt::format_to(std::back_inserter(reasons), "{}{} point{} with a confidence below {}",
+                 reasons.empty() ? "" : "; ", doubtful, doubtful == 1 ? "" : "s", min_confidence);
+}
+
 }  // namespace
 
 void smooth_cells(const cv::Mat1f& saliency, std::vector<float>& scratch, std::vector<float>& smooth) {
@@ -66,7 +77,8 @@ void smooth_cells(const cv::Mat1f& saliency, std::vector<float>& scratch, std::v
             kWeights[at(std::abs(d))]);
 }
 
-ProtoSelector::ProtoSelector(int fixations) : fixations_(fixations) {
+ProtoSelector::ProtoSelector(int fixations, double min_confidence)
+    : fixations_(fixations), min_confidence_(min_confidence) {
   if (fixations < 1) throw std::invalid_argument("ProtoSelector: at least one fixation");
 }
 
@@ -76,27 +88,49 @@ void ProtoSelector::select(const cv::Mat1f& saliency, const cv::Mat1f& depth_mm,
   grid_.build(depth_mm, camera);
   segments_.grow(grid_);
   borders_.measure(grid_, segments_);
-  smooth_cells(saliency, scratch_, value_);
+  smooth_cells(saliency, scratch_, smooth_);
   set_rays(depth_mm.size(), camera);
   make_return_table();
   weigh();
   list_cells_of_segments();
-  for (int rank = 1; rank <= fixations_; ++rank) {
+  int first_cell = 0, doubtful = 0;
+  for (int k = 0; k < fixations_; ++k) {
     int row = 0, col = 0;
     if (!find_winner(row, col)) {
-      attention.ended_early = rank == 1 ? "nothing salient where there is depth"
-                                        : "nothing salient is left beside the proto-objects found";
-      return;
+      attention.ended_early = k == 0 ? "nothing salient where there is depth"
+                                     : "nothing salient is left beside the proto-objects found";
+      break;
     }
-    const cv::Point pixel =
-        fixated_pixel(saliency, depth_mm, row, col, grid_.depth_mm()[at(row * grid_.cols() + col)]);
-    Fixation fixation = fixation_at(saliency, depth_mm, camera, pixel.y, pixel.x);
+    const int cell = row * grid_.cols() + col;
+    if (k == 0) first_cell = cell;
     collect_proto_object(row, col);
-    fixation.proto_object = paint(depth_mm, attention.masks, rank);
     inhibit();
     discount_around(row, col);
+    const float sure = confidence_at(cell, first_cell);
+    if (static_cast<double>(sure) < min_confidence_) {
+      ++doubtful;
+      continue;
+    }
+    const cv::Point pixel = fixated_pixel(saliency, depth_mm, row, col, grid_.depth_mm()[at(cell)]);
+    Fixation fixation = fixation_at(saliency, depth_mm, camera, pixel.y, pixel.x);
+    fixation.proto_object =
+        paint(depth_mm, attention.masks, static_cast<int>(attention.fixations.size()) + 1);
+    fixation.confidence = sure;
     attention.fixations.push_back(fixation);
   }
+  if (doubtful > 0) add_reason(doubtful, min_confidence_, attention.ended_early);
+}
+
+float ProtoSelector::confidence_at(int cell, int first_cell) const {
+  const int segment = segments_.of_cell()[at(cell)];
+  ConfidenceCues cues;
+  cues.relative_saliency = smooth_[at(cell)] / smooth_[at(first_cell)];
+  cues.without_segment = segment == SurfaceSegments::kNone;
+  if (!cues.without_segment) {
+    cues.front_share = borders_.front_share(segment);
+    cues.on_supporting_plane = segments_.is_supporting_plane(segment);
+  }
+  return confidence(cues);
 }
 
 void ProtoSelector::weigh() {
@@ -106,6 +140,7 @@ void ProtoSelector::weigh() {
     weight_[at(segment)] = (segments_.is_supporting_plane(segment) ? kSupportingPlaneWeight : 1) *
                            (borders_.front_share(segment) < kFrontShare ? kBehindWeight : 1);
   row_best_.assign(at(grid_.rows()), 0.0F);
+  value_ = smooth_;
   for (int r = 0, i = 0; r < grid_.rows(); ++r)
     for (int c = 0; c < grid_.cols(); ++c, ++i) {
       const int segment = segments_.of_cell()[at(i)];

@@ -30,8 +30,10 @@ void smooth_cells(const cv::Mat1f& saliency, std::vector<float>& scratch, std::v
 ///  - inhibition of return: every value is multiplied by 1 - kReturnDepth * exp(-d^2 / 2 s^2), d the distance
 ///    from the fixation in the image and s = kReturnReach of its width. Large things fall into several
 ///    proto-objects; this sends the next points elsewhere first.
-/// It ends early when no value above 0 is left. A mask holds the pixels of the proto-object's cells that lie
-/// on its surface, not the margin; masks do not overlap.
+/// It ends early when no value above 0 is left. Of the fixations found, those with a confidence() below
+/// `min_confidence` are left out; the others keep their order and are those that a lower limit gives. A mask
+/// holds the pixels of the proto-object's cells that lie on its surface, not the margin; masks do not
+/// overlap.
 class ProtoSelector : public AttentionSelector {
  public:
   static constexpr float kSupportingPlaneWeight = 0.02F;
@@ -42,13 +44,14 @@ class ProtoSelector : public AttentionSelector {
   static constexpr float kReturnDepth = 0.6F;
   static constexpr float kReturnReach = 3.0F / 32;  ///< 60 px of 640
 
-  /// Throws std::invalid_argument unless fixations >= 1.
-  explicit ProtoSelector(int fixations);
+  /// min_confidence: 0..1, 0 = give all fixations. Throws std::invalid_argument unless fixations >= 1.
+  explicit ProtoSelector(int fixations, double min_confidence = 0);
   void select(const cv::Mat1f& saliency, const cv::Mat1f& depth_mm, const Intrinsics& camera,
               Attention& attention) override;
 
  private:
   void weigh();
+  float confidence_at(int cell, int first_cell) const;
   void list_cells_of_segments();
   bool find_winner(int& row, int& col) const;
   void collect_proto_object(int row, int col);
@@ -60,11 +63,14 @@ class ProtoSelector : public AttentionSelector {
   ProtoObject paint(const cv::Mat1f& depth_mm, cv::Mat1w& masks, int rank) const;
 
   int fixations_;
+  double min_confidence_;
   SurfaceGrid grid_;
   SurfaceSegments segments_;
   BorderOwnership borders_;
   std::vector<float> weight_;  ///< by segment
-  std::vector<float> scratch_, value_;
+  std::vector<float> scratch_;
+  std::vector<float> smooth_;         ///< the map by cell
+  std::vector<float> value_;          ///< the same, weighed and inhibited
   std::vector<float> row_best_;       ///< largest value of each row
   std::vector<float> return_table_;   ///< exp(-d^2 / 2 s^2) by d in cells
   std::vector<float> ray_x_, ray_y_;  ///< x/z of each column, y/z of each row

@@ -10,7 +10,7 @@
 namespace saccade {
 namespace {
 
-// Units: mV, nS, pA, pF, ms; nS * mV = pA and pA * ms / pF = mV. README.md, section 7, has SI units.
+// Units: mV, nS, pA, pF, ms; nS * mV = pA and pA * ms / pF = mV. README.md, section 8, has SI units.
 constexpr double kStepMs = 0.1;
 constexpr double kSaliencyLeak = 100;                   // 1e-7 S
 constexpr double kSaliencyRate = kStepMs / 5e4;         // dt/C, C = 5e-8 F

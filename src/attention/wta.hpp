@@ -9,7 +9,7 @@
 namespace saccade {
 
 /// The Winner-Take-All network with inhibition of return of Koch and Ullman, in the form of Itti and Koch,
-/// with the constants of README.md, section 7. A network cell covers kCellPx x kCellPx image pixels.
+/// with the constants of README.md, section 8. A network cell covers kCellPx x kCellPx image pixels.
 ///
 /// One step of dt = 0.1 ms, explicit Euler, does in this order:
 ///  1. saliency layer: V += dt/C * (I - (g_leak + G_inh) * V), not below its reversal potential 0;

@@ -54,8 +54,8 @@ ConditionResult Evaluator::measure(const Frame& frame, std::size_t condition) {
   selector.select(current_.maps.master, frame.depth_mm, frame.intrinsics, current_.attention);
   ConditionResult result{{}, map_ms_, ms_since(begin)};
   for (const Fixation& fixation : current_.attention.fixations)
-    result.points.push_back(
-        {fixation.row, fixation.col, label_at(frame.truth, {fixation.col, fixation.row})});
+    result.points.push_back({fixation.row, fixation.col, label_at(frame.truth, {fixation.col, fixation.row}),
+                             fixation.confidence});
   return result;
 }
 

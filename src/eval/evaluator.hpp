@@ -16,8 +16,9 @@ namespace saccade {
 
 /// An attention point and the label there.
 struct EvalPoint {
-  int row = 0, col = 0;  ///< pixel
-  int label = 0;         ///< of the object that it hits; 0 = none, kVoid (hit_ratio.hpp) = void
+  int row = 0, col = 0;               ///< pixel
+  int label = 0;                      ///< of the object that it hits; 0 = none, kVoid (hit_ratio.hpp) = void
+  std::optional<float> confidence{};  ///< Fixation::confidence
 };
 
 /// The points that one condition chose in one image, in their order. There are kVoidReserve times as many as

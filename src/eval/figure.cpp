@@ -1,30 +1,21 @@
 #include "eval/figure.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
 
 #include <fmt/format.h>
+
+#include "eval/chart.hpp"
 
 namespace saccade {
 namespace {
 
 constexpr double kPanelWidth = 380, kPanelHeight = 280, kLeft = 62, kTop = 44, kBottom = 52, kGap = 24;
-constexpr double kLegendWidth = 190, kLegendLine = 19;
+constexpr double kLegendWidth = 190;
 constexpr std::size_t kPanelsInRow = 4, kMostShaded = 4;
-constexpr Colour kInk{40, 40, 40}, kGrid{224, 224, 224}, kGray{110, 110, 110};
-
-// Okabe and Ito's palette without its yellow, which is too light for lines.
-constexpr std::array<Colour, 7> kPalette = {
-    {{0, 114, 178}, {213, 94, 0}, {0, 158, 115}, {204, 121, 167}, {230, 159, 0}, {86, 180, 233}, {0, 0, 0}}};
-constexpr int kMarkers = 4;
 
 struct Series {
-  std::string name;
+  SeriesStyle style;
   const Curve* curve = nullptr;
-  Colour colour;
-  std::array<double, 2> dash = {0, 0};
-  int marker = -1;  // -1 = none
   bool shaded = false;
 };
 
@@ -37,20 +28,6 @@ struct Panel {
 struct Row {
   std::vector<Panel> panels;
 };
-
-// Corners of a marker about the origin: a disc, a square, a triangle, a diamond.
-std::vector<cv::Point2d> marker_corners(int marker, cv::Point2d at) {
-  constexpr double kRadius = 3.6;
-  constexpr std::array<int, kMarkers> kCorners = {16, 4, 3, 4};
-  constexpr std::array<double, kMarkers> kTurn = {0, 0.25, -0.5, 0};
-  const auto kind = static_cast<std::size_t>(marker % kMarkers);
-  std::vector<cv::Point2d> corners;
-  for (int i = 0; i < kCorners[kind]; ++i) {
-    const double angle = (2.0 * i / kCorners[kind] + kTurn[kind]) * std::numbers::pi;
-    corners.push_back(at + kRadius * cv::Point2d(std::cos(angle), std::sin(angle)));
-  }
-  return corners;
-}
 
 // Draws into the rectangle of one panel's axes.
 class Axes {
@@ -107,20 +84,20 @@ class Axes {
       corners.push_back(at(static_cast<double>(i + 1), interval[i].high));
     for (std::size_t i = interval.size(); i-- > 0;)
       corners.push_back(at(static_cast<double>(i + 1), interval[i].low));
-    drawing_.shapes.emplace_back(Area{corners, series.colour, 0.15});
+    drawing_.shapes.emplace_back(Area{corners, series.style.colour, 0.15});
   }
 
   void curve(const Series& series) {
     std::vector<cv::Point2d> points;
     for (std::size_t i = 0; i < series.curve->mean.size(); ++i)
       points.push_back(at(static_cast<double>(i + 1), series.curve->mean[i]));
-    drawing_.shapes.emplace_back(Line{points, series.colour, 2, series.dash});
-    if (series.marker < 0) return;
+    drawing_.shapes.emplace_back(Line{points, series.style.colour, 2, series.style.dash});
+    if (series.style.marker < 0) return;
     // Every n would hide the line; each series has its own phase, so that markers do not lie on each other.
     const std::size_t step = points.size() > 12 ? 4 : 1;
-    for (std::size_t i = step == 1 ? 0 : static_cast<std::size_t>(series.marker) % step; i < points.size();
-         i += step)
-      drawing_.shapes.emplace_back(Area{marker_corners(series.marker, points[i]), series.colour});
+    for (std::size_t i = step == 1 ? 0 : static_cast<std::size_t>(series.style.marker) % step;
+         i < points.size(); i += step)
+      drawing_.shapes.emplace_back(Area{marker_corners(series.style.marker, points[i]), series.style.colour});
   }
 
   Drawing& drawing_;
@@ -128,30 +105,21 @@ class Axes {
   int points_;
 };
 
-void draw_legend(Drawing& drawing, cv::Point2d corner, const std::vector<Series>& series) {
-  cv::Point2d left = corner;
-  for (const Series& s : series) {
-    const cv::Point2d middle = left + cv::Point2d(15, -4);
-    drawing.shapes.emplace_back(
-        Line{{left + cv::Point2d(0, -4), left + cv::Point2d(30, -4)}, s.colour, 2, s.dash});
-    if (s.marker >= 0) drawing.shapes.emplace_back(Area{marker_corners(s.marker, middle), s.colour});
-    drawing.shapes.emplace_back(Text{left + cv::Point2d(38, 0), s.name, 12, Anchor::start, kInk});
-    left.y += kLegendLine;
-  }
-}
-
 // The curve of what is compared; the colour and marker of the number-th of `of` series.
 Series series_of(const std::string& name, const Curve& curve, std::size_t number, std::size_t of) {
-  Series series{
-      name, &curve, kPalette[number % kPalette.size()], {0, 0}, static_cast<int>(number), of <= kMostShaded};
-  if (number >= kPalette.size()) series.dash = {9, 3};
-  return series;
+  return {style_of(name, number), &curve, of <= kMostShaded};
+}
+
+std::vector<SeriesStyle> styles_of(const Panel& panel) {
+  std::vector<SeriesStyle> styles;
+  for (const Series& series : panel.series) styles.push_back(series.style);
+  return styles;
 }
 
 void add_references(Panel& panel, const Statistics& statistics) {
-  panel.series.insert(panel.series.begin(), {"upper bound", &statistics.bound, kInk, {7, 4}});
-  panel.series.push_back({"centre (expected)", &statistics.centre, kGray, {8, 3}});
-  panel.series.push_back({"random (expected)", &statistics.random, kGray, {2, 3}});
+  panel.series.insert(panel.series.begin(), {{"upper bound", kInk, {7, 4}}, &statistics.bound});
+  panel.series.push_back({{"centre (expected)", kGray, {8, 3}}, &statistics.centre});
+  panel.series.push_back({{"random (expected)", kGray, {2, 3}}, &statistics.random});
 }
 
 class Figure {
@@ -233,7 +201,7 @@ Drawing draw_hit_ratios(const EvalPlan& plan, const Statistics& statistics) {
       Axes(drawing, {x, height + kTop}, plan.points).draw(panel, x == kLeft);
       x += kPanelWidth + kGap + kLeft / 2;
     }
-    draw_legend(drawing, {x - kLeft / 2, height + kTop + 12}, row.panels[0].series);
+    draw_legend(drawing, {x - kLeft / 2, height + kTop + 12}, styles_of(row.panels[0]));
     const double legend = kTop + 12 + kLegendLine * static_cast<double>(row.panels[0].series.size());
     height += std::max(kTop + kPanelHeight + kBottom, legend);
   }

@@ -10,8 +10,7 @@ namespace saccade {
 /// a panel that compares the models, and for each selector and model on which the kernel has an effect a
 /// panel that compares the kernels. With one model only the latter are shown if there are any. Every panel
 /// shows the upper bound and the two baselines; the 95 % intervals are shaded unless a panel has too many
-/// curves for that. Colour-blind readers can distinguish the colours and markers
-/// (Okabe and Ito).
+/// curves for that.
 Drawing draw_hit_ratios(const EvalPlan& plan, const Statistics& statistics);
 
 }  // namespace saccade

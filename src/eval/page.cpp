@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "attention/confidence.hpp"
 #include "eval/hit_ratio.hpp"
 #include "eval/markup.hpp"
 
@@ -82,6 +83,25 @@ std::string points_on_table(const EvalPlan& plan, const Statistics& statistics) 
   return html + "</table>\n";
 }
 
+std::string reliability_section(const EvalPlan& plan, const Statistics& statistics, const std::string& svg) {
+  std::string html = fmt::format(
+      "<h2>Confidence</h2>\n<p>The confidence of a point is the probability that it lies on an object; "
+      "points "
+      "on void are left out. Precision: the share of the points with a confidence of at least {0} that lies "
+      "on "
+      "objects. Recall: the share of the objects hit by any point that these points hit.</p>\n{1}"
+      "<table><tr><th></th><th>points</th><th>at least {0}</th><th>precision</th><th>recall</th><th>Brier "
+      "score</th></tr>\n",
+      kProbablyObject, svg);
+  const auto conditions = plan.conditions();
+  for (std::size_t i = 0; i < conditions.size(); ++i)
+    if (const auto& r = statistics.reliability[i])
+      html += fmt::format(
+          "<tr><td>{}</td><td>{}</td><td>{}</td><td>{:.3f}</td><td>{:.3f}</td><td>{:.3f}</td></tr>\n",
+          escaped(describe(conditions[i])), r->points, r->sure, r->precision, r->recall, r->brier);
+  return html + "</table>\n";
+}
+
 std::string figure_of(const EvalPlan& plan, const Example& example) {
   const ImageResult& image = *example.image;
   const int points = std::min(plan.points, 10);
@@ -122,7 +142,7 @@ std::string left_out(const std::vector<ImageResult>& images) {
 }  // namespace
 
 std::string page_html(const EvalPlan& plan, const std::vector<ImageResult>& images,
-                      const Statistics& statistics, const std::string& svg,
+                      const Statistics& statistics, const PageFigures& figures,
                       const std::vector<Example>& examples) {
   std::string html = kHead;
   html += fmt::format("<h1>Hit Ratio on {}</h1>\n", escaped(plan.dataset));
@@ -137,7 +157,8 @@ std::string page_html(const EvalPlan& plan, const std::vector<ImageResult>& imag
         "<p>Void is what nobody labelled, known in {} of the images; in the void-neutral Hit Ratio points on "
         "void do not count and the next ones take their place.</p>\n",
         statistics.void_known);
-  html += svg + hit_ratio_table(plan, statistics) + points_on_table(plan, statistics);
+  html += figures.hit_ratios + hit_ratio_table(plan, statistics) + points_on_table(plan, statistics);
+  if (!figures.reliability.empty()) html += reliability_section(plan, statistics, figures.reliability);
   if (!examples.empty())
     html +=
         "<p>The images on which each model comes closest to the bound and stays farthest from it, under its "

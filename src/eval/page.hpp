@@ -8,10 +8,15 @@
 
 namespace saccade {
 
-/// index.html: the figure (`svg`), a table of the means with intervals, what the points lie on, and the
-/// examples' pictures, which are files beside the page.
+/// SVG documents; `reliability` is empty if no point has a confidence.
+struct PageFigures {
+  std::string hit_ratios, reliability;
+};
+
+/// index.html: the figures, a table of the means with intervals, what the points lie on, how reliable their
+/// confidence is, and the examples' pictures, which are files beside the page.
 std::string page_html(const EvalPlan& plan, const std::vector<ImageResult>& images,
-                      const Statistics& statistics, const std::string& svg,
+                      const Statistics& statistics, const PageFigures& figures,
                       const std::vector<Example>& examples);
 
 }  // namespace saccade

@@ -14,7 +14,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr int kFormat = 2;  // of results.jsonl
+constexpr int kFormat = 3;  // of results.jsonl
 constexpr int kMostShards = 100'000;
 
 // Reads each word of the list with the setting's own parser; `take` gets the settings that hold it.
@@ -64,6 +64,7 @@ Settings EvalPlan::settings_of(const Condition& condition) const {
   s.kernel = condition.kernel;
   s.selector = condition.selector;
   s.fixations = points;
+  s.min_confidence = 0;
   return s;
 }
 

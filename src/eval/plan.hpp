@@ -27,8 +27,10 @@ std::string to_string(Selector selector);
 
 inline constexpr int kMostPoints = 1000;
 
-/// The settings that a plan replaces by fields of its own: models, kernels, selectors, points.
-inline constexpr std::array<std::string_view, 4> kPlanKeys = {"model", "kernel", "selector", "fixations"};
+/// The settings that a plan replaces by fields of its own (models, kernels, selectors, points) or, for the
+/// confidence, by 0: every point counts.
+inline constexpr std::array<std::string_view, 5> kPlanKeys = {"model", "kernel", "selector", "fixations",
+                                                              "min-confidence"};
 
 /// Whether plan_json() keeps this setting: those that change results, apart from kPlanKeys.
 bool is_kept(const SettingSpec& spec);
@@ -40,7 +42,7 @@ struct EvalPlan {
   std::vector<int> kernels;
   std::vector<Selector> selectors;
   int points = 30;             ///< n of the Hit Ratio goes from 1 to this
-  Settings settings;           ///< everything else; its model, kernel, selector and fixations have no effect
+  Settings settings;           ///< everything else; kPlanKeys have no effect
   int shard = 1, shards = 1;   ///< this part of how many; a part holds every shards-th frame
   std::int64_t positions = 0;  ///< number of frames that `settings` selects, in all shards
 

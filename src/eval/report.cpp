@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "attention/confidence.hpp"
 #include "core/version.hpp"
 #include "eval/hit_ratio.hpp"
 
@@ -80,6 +81,25 @@ Json cross_validation_json(const EvalPlan& plan, const Statistics& statistics) {
   return all;
 }
 
+Json reliability_json(const Reliability& reliability) {
+  Json bins = Json::array();
+  for (std::size_t i = 0; i < reliability.bins.size(); ++i) {
+    const Reliability::Bin& bin = reliability.bins[i];
+    bins.push_back({{"from", rounded(static_cast<double>(i) / Reliability::kBins)},
+                    {"to", rounded(static_cast<double>(i + 1) / Reliability::kBins)},
+                    {"points", bin.points},
+                    {"confidence", rounded(bin.confidence)},
+                    {"on_object", rounded(bin.on_object)}});
+  }
+  return {{"points", reliability.points},
+          {"brier", rounded(reliability.brier)},
+          {"threshold", kProbablyObject},
+          {"points_above", reliability.sure},
+          {"precision", rounded(reliability.precision)},
+          {"recall", rounded(reliability.recall)},
+          {"bins", bins}};
+}
+
 Json conditions_json(const EvalPlan& plan, const Statistics& statistics) {
   Json all = Json::array();
   const auto conditions = plan.conditions();
@@ -90,6 +110,7 @@ Json conditions_json(const EvalPlan& plan, const Statistics& statistics) {
     const bool void_known = statistics.void_known > 0;
     if (void_known) json["hr_void_neutral"] = curve_json(statistics.void_neutral[i]);
     json["points_on"] = points_on_json(statistics.points_on[i], void_known);
+    if (statistics.reliability[i]) json["confidence"] = reliability_json(*statistics.reliability[i]);
     json["halves"] = halves_json(statistics.halves[i], shown_counts(plan.points));
     json["times_ms"] = {{"map", rounded(statistics.map_ms[i], 3)},
                         {"select", rounded(statistics.select_ms[i], 3)}};
@@ -164,6 +185,20 @@ std::string points_on_text(const EvalPlan& plan, const Statistics& statistics) {
   return text;
 }
 
+std::string reliability_text(const EvalPlan& plan, const Statistics& statistics) {
+  std::string lines;
+  const auto conditions = plan.conditions();
+  for (std::size_t i = 0; i < conditions.size(); ++i)
+    if (const auto& r = statistics.reliability[i])
+      lines += fmt::format("{:<40} {:6} {:6} {:9.3f} {:6.3f} {:6.3f}\n", describe(conditions[i]), r->points,
+                           r->sure, r->precision, r->recall, r->brier);
+  if (lines.empty()) return lines;
+  return fmt::format("{:<40} {:>6} {:>6} {:>9} {:>6} {:>6}\n",
+                     fmt::format("Points of a confidence >= {}", kProbablyObject), "of", "number",
+                     "precision", "recall", "Brier") +
+         lines;
+}
+
 }  // namespace
 
 std::string csv_text(const EvalPlan& plan, const std::vector<ImageResult>& images) {
@@ -220,7 +255,7 @@ std::string report_text(const EvalPlan& plan, const Statistics& statistics) {
       text += table_line(c.model + ", cross-validated", c.curve, counts);
   text += table_line("centre (expected)", statistics.centre, counts);
   text += table_line("random (expected)", statistics.random, counts);
-  return text + points_on_text(plan, statistics);
+  return text + points_on_text(plan, statistics) + reliability_text(plan, statistics);
 }
 
 }  // namespace saccade

@@ -21,13 +21,20 @@ constexpr std::uintmax_t kLargestFile = std::uintmax_t{8} << 30;
 
 Json condition_json(const ConditionResult& condition) {
   Json points = Json::array();
-  for (const EvalPoint& p : condition.points) points.push_back({p.row, p.col, p.label});
+  for (const EvalPoint& p : condition.points) {
+    Json point = {p.row, p.col, p.label};
+    if (p.confidence) point.push_back(*p.confidence);
+    points.push_back(std::move(point));
+  }
   return {{"points", points}, {"map_ms", condition.map_ms}, {"select_ms", condition.select_ms}};
 }
 
 ConditionResult condition_from(const Json& json) {
   ConditionResult condition{{}, json.at("map_ms"), json.at("select_ms")};
-  for (const auto& p : json.at("points")) condition.points.push_back({p.at(0), p.at(1), p.at(2)});
+  for (const auto& p : json.at("points")) {
+    EvalPoint& point = condition.points.emplace_back(EvalPoint{p.at(0), p.at(1), p.at(2)});
+    if (p.size() > 3) point.confidence = p[3].get<float>();
+  }
   return condition;
 }
 

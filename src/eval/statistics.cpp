@@ -198,6 +198,7 @@ Statistics summarise(const EvalPlan& plan, const std::vector<ImageResult>& image
     statistics.conditions.push_back(curve_of(table, resampled.back()));
     statistics.halves.push_back(means_of_halves(table));
     statistics.points_on.push_back(shares_of(plan, images, i));
+    statistics.reliability.push_back(reliability_of(plan, images, i));
     if (statistics.void_known > 0)
       statistics.void_neutral.push_back(curve_of(void_neutral_hit_ratios(plan, images, i)));
     const auto most = static_cast<std::size_t>(plan.points);

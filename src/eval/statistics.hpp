@@ -2,12 +2,14 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "eval/bootstrap.hpp"
 #include "eval/evaluator.hpp"
 #include "eval/plan.hpp"
+#include "eval/reliability.hpp"
 
 namespace saccade {
 
@@ -54,6 +56,7 @@ struct Statistics {
   std::vector<Curve> void_neutral;                  ///< of each condition; empty if no image has classes
   std::vector<std::vector<PointShares>> points_on;  ///< of each condition, n = 1..points
   std::vector<std::array<std::vector<double>, 2>> halves;  ///< of each condition: HR_n of even and odd images
+  std::vector<std::optional<Reliability>> reliability;     ///< of each condition
   std::vector<double> points_mean;  ///< of each condition: points that its selector gave, up to `points`
   std::vector<double> map_ms, select_ms;  ///< of each condition: mean time
   std::vector<Difference> differences;

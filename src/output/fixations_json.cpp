@@ -24,6 +24,7 @@ std::string fixations_json(const Result& result) {
     line += fmt::format(R"({}{{"rank":{},"row":{},"col":{},"saliency":{},"x_mm":{},"y_mm":{},"z_mm":{})",
                         rank > 0 ? "," : "", rank + 1, f.row, f.col, f.saliency, f.position_mm.x,
                         f.position_mm.y, f.position_mm.z);
+    if (f.confidence) line += fmt::format(R"(,"confidence":{})", *f.confidence);
     const ProtoObject& object = f.proto_object;
     if (object.pixels > 0)
       line += fmt::format(R"(,"pixels":{},"centroid_mm":{},"extent_mm":{})", object.pixels,

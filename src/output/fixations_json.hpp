@@ -7,8 +7,8 @@
 namespace saccade {
 
 /// A frame's line of fixations.jsonl (README.md), without the line feed. Positions are in mm in camera frame;
-/// 0, 0, 0 means that there is no depth reading at the pixel. Fixations of `proto` also describe their
-/// proto-object; "ended_early" says why there are fewer than requested.
+/// 0, 0, 0 means that there is no depth reading at the pixel. Fixations of `proto` also have
+/// their confidence and describe their proto-object; "ended_early" says why there are fewer than requested.
 std::string fixations_json(const Result& result);
 
 }  // namespace saccade

@@ -14,7 +14,13 @@
 namespace saccade {
 namespace {
 
-const cv::Scalar kMark(255, 255, 255), kFirstMark(80, 255, 80), kShadow(0, 0, 0);
+const cv::Scalar kMark(255, 255, 255), kFirstMark(80, 255, 80), kFaintMark(128, 128, 128), kShadow(0, 0, 0);
+
+// `rank` from 1.
+const cv::Scalar& colour_of(const std::vector<Fixation>& fixations, std::size_t rank) {
+  if (is_doubtful(fixations[rank - 1])) return kFaintMark;
+  return rank == 1 ? kFirstMark : kMark;
+}
 
 // Marks and lines grow with the picture: 1 at 640 pixels wide.
 double mark_size(const cv::Mat3b& picture) { return std::clamp(picture.cols / 640.0, 0.5, 4.0); }
@@ -50,7 +56,8 @@ std::vector<cv::Rect> object_boxes(const Attention& attention) {
 void draw_outlines(cv::Mat3b& picture, const Attention& attention) {
   const int line = std::max(1, cvRound(mark_size(picture)));
   for (const Outline& outline : proto_outlines(attention))
-    cv::polylines(picture, outline.points, true, outline.rank == 1 ? kFirstMark : kMark, line, cv::LINE_AA);
+    cv::polylines(picture, outline.points, true, colour_of(attention.fixations, outline.rank), line,
+                  cv::LINE_AA);
 }
 
 void draw_label(cv::Mat3b& picture, const std::string& text, cv::Point centre, double size,
@@ -67,7 +74,7 @@ void draw_path(cv::Mat3b& picture, const std::vector<Fixation>& fixations) {
   const int line = std::max(1, cvRound(mark_size(picture)));
   for (std::size_t i = 1; i < fixations.size(); ++i)
     cv::line(picture, {fixations[i - 1].col, fixations[i - 1].row}, {fixations[i].col, fixations[i].row},
-             kMark, line, cv::LINE_AA);
+             is_doubtful(fixations[i]) ? kFaintMark : kMark, line, cv::LINE_AA);
 }
 
 void draw_marks(cv::Mat3b& picture, const std::vector<Fixation>& fixations) {
@@ -75,7 +82,7 @@ void draw_marks(cv::Mat3b& picture, const std::vector<Fixation>& fixations) {
   const int radius = cvRound(11 * size), line = std::max(1, cvRound(size));
   for (std::size_t i = fixations.size(); i-- > 0;) {  // the first on top
     const cv::Point centre(fixations[i].col, fixations[i].row);
-    const cv::Scalar& colour = i == 0 ? kFirstMark : kMark;
+    const cv::Scalar& colour = colour_of(fixations, i + 1);
     cv::circle(picture, centre, radius, kShadow, cv::FILLED, cv::LINE_AA);
     cv::circle(picture, centre, radius, colour, line, cv::LINE_AA);
     draw_label(picture, std::to_string(i + 1), centre, size, colour);

@@ -69,7 +69,8 @@ cv::Mat3b draw_background(const Frame& frame, const OverlayStyle& style);
 /// std::invalid_argument if the sizes differ.
 void blend_map(cv::Mat3b& picture, const cv::Mat1b& strength, const MapStyle& style);
 
-/// Draws the fixations, scan path and outlines that the style has; the first fixation in green.
+/// Draws the fixations, scan path and outlines that the style has; the first fixation in green, doubtful ones
+/// (is_doubtful) in grey.
 void draw_attention(cv::Mat3b& picture, const Attention& attention, const OverlayStyle& style);
 
 /// The frame, the map over it, and the numbered fixations: H x W, BGR. The same input gives the same pixels.

@@ -62,8 +62,9 @@ TEST(Options, EachCommandAcceptsTheScopesThatItUses) {
 #endif
   EXPECT_EQ(accepted("record"), keys_of({Scope::sensor}, {"frames", "json", "quiet"}));
   EXPECT_EQ(accepted("bench"), keys_of({Scope::model, Scope::attention}, {"json", "workers"}));
-  EXPECT_EQ(accepted("eval"), keys_of({Scope::model, Scope::attention, Scope::frames, Scope::program},
-                                      {"json"}, {"model", "kernel", "selector", "fixations"}));
+  EXPECT_EQ(accepted("eval"),
+            keys_of({Scope::model, Scope::attention, Scope::frames, Scope::program}, {"json"},
+                    {"model", "kernel", "selector", "fixations", "min-confidence"}));
 }
 
 TEST(Options, ASettingThatACommandDoesNotAcceptIsAUsageError) {

@@ -138,6 +138,34 @@ TEST(ProtoSelector, AThingInFrontComesBeforeAPieceOfItsBackground) {
   EXPECT_EQ(first_fixation(200), 2000);  // it is a weight and no ban
 }
 
+TEST(ProtoSelector, LeavesOutDoubtfulPointsAndSaysHowMany) {
+  const TableScene scene =
+      look_at_table({box(20, 200, 160, 100, 120), box(-10, -100, 120, 140, 60), ball(250, 60, 60)});
+  const cv::Mat1f map = hills(scene.labels.size(), {{middle_of(scene.labels, 1), 3},
+                                                    {{120, 400}, 200},  // on the table
+                                                    {middle_of(scene.labels, 2), 2},
+                                                    {middle_of(scene.labels, 3), 1}});
+  ProtoSelector all(10), sure(10, 0.5);
+  Attention a, b;
+  all.select(map, scene.depth_mm, scene.camera, a);
+  sure.select(map, scene.depth_mm, scene.camera, b);
+  ASSERT_EQ(b.fixations.size(), 3U);
+  ASSERT_GT(a.fixations.size(), 3U);
+  std::size_t k = 0;
+  for (const Fixation& f : a.fixations) {
+    const bool on_thing = scene.labels(f.row, f.col) != 0;
+    ASSERT_TRUE(f.confidence);
+    EXPECT_EQ(is_doubtful(f), !on_thing) << *f.confidence;
+    if (!on_thing) continue;
+    EXPECT_EQ(b.fixations[k].row, f.row);
+    EXPECT_EQ(b.fixations[k].col, f.col);
+    EXPECT_EQ(b.fixations[k].confidence, f.confidence);
+    EXPECT_EQ(b.masks(f.row, f.col), ++k);
+  }
+  EXPECT_THAT(b.ended_early,
+              HasSubstr(std::to_string(a.fixations.size() - 3) + " points with a confidence below 0.5"));
+}
+
 TEST(ProtoSelector, EndsWithAReasonWhenThereIsNothing) {
   ProtoSelector selector(5);
   Attention attention;

@@ -39,6 +39,7 @@ TEST(EvalPlan, ConditionsAreAllCombinations) {
   EXPECT_EQ(settings.kernel, 10);
   EXPECT_EQ(settings.selector, Selector::wta);
   EXPECT_EQ(settings.fixations, 3);
+  EXPECT_EQ(settings.min_confidence, 0) << "every point counts";
 }
 
 TEST(EvalPlan, EmptyListsAreThoseOfTheSettings) {
@@ -97,7 +98,7 @@ TEST(EvalPlan, JsonOfNoPlan) {
                                                                   {"selectors", R"(["none"])"},
                                                                   {"points", "0"},
                                                                   {"shard", "2"},
-                                                                  {"format", "3"}};
+                                                                  {"format", "2"}};
   for (const auto& [key, value] : wrong) {
     auto json = plan_json(sample_plan());
     json[key] = nlohmann::ordered_json::parse(value);

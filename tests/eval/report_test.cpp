@@ -225,7 +225,8 @@ TEST(Report, PageShowsTableExamplesAndWhatIsLeftOut) {
   plan.dataset = "a<b>&c";
   const auto images = sample_images();
   const auto examples = choose_examples(plan, images);
-  const std::string page = page_html(plan, images, summarise(plan, images), "<svg>FIGURE</svg>", examples);
+  const std::string page =
+      page_html(plan, images, summarise(plan, images), {"<svg>FIGURE</svg>", ""}, examples);
   EXPECT_THAT(page, HasSubstr("<svg>FIGURE</svg>"));
   EXPECT_THAT(page, HasSubstr("a&lt;b&gt;&amp;c"));
   EXPECT_THAT(page, HasSubstr("symmetry3d, k = 15, wta"));
@@ -235,9 +236,9 @@ TEST(Report, PageShowsTableExamplesAndWhatIsLeftOut) {
   EXPECT_THAT(page, HasSubstr("What the points lie on"));
   EXPECT_THAT(page, Not(HasSubstr("void")));
   const auto with_void = images_with_void();
-  EXPECT_THAT(page_html(plan, with_void, summarise(plan, with_void), "", {}),
+  EXPECT_THAT(page_html(plan, with_void, summarise(plan, with_void), {}, {}),
               HasSubstr("<td>33<small>0 / 17 / 17, missing 33</small></td>"));
-  EXPECT_THAT(page_html(plan, {images[0]}, summarise(plan, {images[0]}), "", {}), Not(HasSubstr("Left out")));
+  EXPECT_THAT(page_html(plan, {images[0]}, summarise(plan, {images[0]}), {}, {}), Not(HasSubstr("Left out")));
 }
 
 }  // namespace

@@ -78,6 +78,15 @@ TEST_F(ResultFileTest, VoidIsWrittenAndRead) {
   EXPECT_FALSE(again.images[2].void_known);
 }
 
+TEST_F(ResultFileTest, ConfidencesAreWrittenAndRead) {
+  StoredResults results{sample_plan(), sample_images(), true};
+  results.images[0].conditions[0].points[1].confidence = 0.9342711F;
+  write_results(folder_, results);
+  const auto read = read_results(folder_).images[0].conditions[0].points;
+  EXPECT_EQ(read[1].confidence, 0.9342711F);
+  EXPECT_FALSE(read[0].confidence);
+}
+
 TEST_F(ResultFileTest, ANewFileHoldsThePlan) {
   const StoredResults results = resume_results(folder_, sample_plan());
   EXPECT_TRUE(results.images.empty());

@@ -150,6 +150,19 @@ TEST_F(OverlayTest, PaletteBackgroundAndPathAreChoices) {
   EXPECT_NE(draw_overlay(frame_, saliency_, attention_)(40, 80), cv::Vec3b(40, 50, 60)) << "the path";
 }
 
+TEST_F(OverlayTest, ADoubtfulFixationIsGreyWithItsOutline) {
+  const auto drawn = [&](std::optional<float> confidence) {
+    attention_.fixations[0].confidence = confidence;
+    return draw_overlay(frame_, saliency_, attention_, {.path = false});
+  };
+  const cv::Mat3b sure = drawn(0.9F), doubtful = drawn(0.3F);
+  EXPECT_EQ(cv::norm(drawn(std::nullopt), sure, cv::NORM_INF), 0);
+  const cv::Rect outline(10, 10, 30, 30), mark(60, 40, 40, 40);
+  EXPECT_GT(cv::norm(sure(outline), doubtful(outline), cv::NORM_INF), 0);
+  EXPECT_GT(cv::norm(sure(mark), doubtful(mark), cv::NORM_INF), 0);
+  for (const cv::Vec3b& p : doubtful) EXPECT_LE(p[1] - p[2], 1) << "nothing is green";
+}
+
 TEST_F(OverlayTest, SizesThatDoNotFitAreRefused) {
   cv::Mat3b picture(3, 3);
   EXPECT_THROW(blend_map(picture, cv::Mat1b(3, 4), {}), std::invalid_argument);

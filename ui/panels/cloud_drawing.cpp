@@ -75,18 +75,20 @@ struct Box {
 };
 
 // A number in a disc, with the position beside it if that covers no other text.
-void draw_marker(ImDrawList& list, ImVec2 at, std::size_t rank, const cv::Point3f& position_mm,
+void draw_marker(ImDrawList& list, ImVec2 at, std::size_t rank, const Fixation& fixation,
                  std::vector<Box>& taken) {
   const float em = ImGui::GetFontSize(), radius = 0.75F * em;
-  const ImU32 colour = rank == 1 ? IM_COL32(80, 255, 80, 255) : IM_COL32(255, 255, 255, 255);
+  const ImU32 colour = is_doubtful(fixation) ? IM_COL32(255, 255, 255, 110)
+                       : rank == 1           ? IM_COL32(80, 255, 80, 255)
+                                             : IM_COL32(255, 255, 255, 255);
   list.AddCircleFilled(at, radius, IM_COL32(0, 0, 0, 220));
   list.AddCircle(at, radius, colour, 0, em / 10);
   const std::string number = fmt::format("{}", rank);
   const ImVec2 digits = ImGui::CalcTextSize(number.c_str());
   list.AddText({at.x - digits.x / 2, at.y - digits.y / 2}, colour, number.c_str());
 
-  const std::string text =
-      fmt::format("{:.0f} {:.0f} {:.0f} mm", position_mm.x, position_mm.y, position_mm.z);
+  const cv::Point3f& p = fixation.position_mm;
+  const std::string text = fmt::format("{:.0f} {:.0f} {:.0f} mm", p.x, p.y, p.z);
   const ImVec2 size = ImGui::CalcTextSize(text.c_str());
   // At the right; at the left where there is no room.
   const float right = at.x + radius + 0.3F * em;
@@ -104,8 +106,7 @@ void draw_fixations(const CloudPanelState& state, const std::vector<Fixation>& f
   ImDrawList& list = *ImGui::GetWindowDrawList();
   struct Marker {
     ImVec2 at;
-    std::size_t rank;
-    cv::Point3f position_mm;
+    std::size_t index;
   };
   std::vector<Marker> markers;
   std::vector<Box> taken;  // begins with the discs: no text over them
@@ -116,10 +117,11 @@ void draw_fixations(const CloudPanelState& state, const std::vector<Fixation>& f
     const auto at = state.camera.project(p, viewport);
     if (!at) continue;
     const ImVec2 screen(corner.x + static_cast<float>(at->x), corner.y + static_cast<float>(at->y));
-    markers.push_back({screen, i + 1, p});
+    markers.push_back({screen, i});
     taken.push_back({{screen.x - radius, screen.y - radius}, {screen.x + radius, screen.y + radius}});
   }
-  for (const Marker& marker : markers) draw_marker(list, marker.at, marker.rank, marker.position_mm, taken);
+  for (const Marker& marker : markers)
+    draw_marker(list, marker.at, marker.index + 1, fixations[marker.index], taken);
 }
 
 }  // namespace

@@ -150,6 +150,7 @@ void explain_fixation(const Computed& computed, const OverlayShapes& shapes, cv:
   const Fixation& f = computed.result.attention.fixations[static_cast<std::size_t>(rank)];
   std::string text =
       fmt::format("Fixation {}\nrow {}, column {}\nsaliency {:.3f}", rank + 1, f.row, f.col, f.saliency);
+  if (f.confidence) text += fmt::format("\nconfidence {:.2f}", *f.confidence);
   text += f.position_mm.z > 0 ? fmt::format("\nx y z {:.0f}, {:.0f}, {:.0f} mm", f.position_mm.x,
                                             f.position_mm.y, f.position_mm.z)
                               : "\nno depth there";

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 #include <imgui.h>
@@ -61,7 +62,15 @@ void draw_attention(ViewContext& view, Settings& s) {
   named_row("Fixations", "Fixations per frame, at most");
   ImGui::SliderInt("##fixations", &s.fixations, 1, 30, "%d");
   s.fixations = std::clamp(s.fixations, 1, 1000);
-  if (s.selector != Selector::wta) return;
+  if (s.selector == Selector::proto) {
+    named_row("Confidence", "Fixations that are less certain to lie on an object are not shown; 0 shows all");
+    auto least = static_cast<float>(s.min_confidence);
+    // Rounded as shown: a setting of 0.30000001 would be odd in a file.
+    if (ImGui::SliderFloat("##confidence", &least, 0, 1, "at least %.2f", ImGuiSliderFlags_AlwaysClamp))
+      s.min_confidence = std::round(100 * static_cast<double>(least)) / 100;
+    log_place(view, "confidence");
+    return;
+  }
   named_row("Focus", "Size of the focus of attention");
   auto foa = static_cast<float>(s.foa);
   if (ImGui::SliderFloat("##foa", &foa, 8, 256, "%.0f px"))

@@ -3,7 +3,14 @@
 namespace saccade {
 namespace {
 
-constexpr Rgba kRest{255, 255, 255, 235}, kFirst{88, 255, 120, 255}, kShadow{0, 0, 0, 150};
+constexpr Rgba kRest{255, 255, 255, 235}, kFirst{88, 255, 120, 255}, kFaint{255, 255, 255, 110},
+    kShadow{0, 0, 0, 150};
+
+// `rank` from 1.
+Rgba colour_of(const std::vector<Fixation>& fixations, std::size_t rank) {
+  if (is_doubtful(fixations[rank - 1])) return kFaint;
+  return rank == 1 ? kFirst : kRest;
+}
 
 cv::Point2f place(const PictureView& view, double col, double row) {
   // The middle of a pixel is half a pixel from its corner.
@@ -22,13 +29,13 @@ OverlayShapes overlay_shapes(const Computed& computed, const OverlayStyle& style
                              double unit) {
   OverlayShapes shapes;
   const auto width = static_cast<float>(1.4 * unit);
+  const auto& fixations = computed.result.attention.fixations;
   if (style.outlines)
     for (const Outline& outline : computed.outlines) {
       std::vector<cv::Point2f> points;
       for (const cv::Point& p : outline.points) points.push_back(place(view, p.x, p.y));
-      add_line(shapes, std::move(points), true, width, outline.rank == 1 ? kFirst : kRest);
+      add_line(shapes, std::move(points), true, width, colour_of(fixations, outline.rank));
     }
-  const auto& fixations = computed.result.attention.fixations;
   if (style.path && fixations.size() > 1) {
     std::vector<cv::Point2f> path;
     for (const Fixation& f : fixations) path.push_back(place(view, f.col, f.row));
@@ -37,7 +44,7 @@ OverlayShapes overlay_shapes(const Computed& computed, const OverlayStyle& style
   if (style.marks)
     for (std::size_t i = fixations.size(); i-- > 0;)
       shapes.marks.push_back({place(view, fixations[i].col, fixations[i].row), static_cast<float>(10 * unit),
-                              i == 0 ? kFirst : kRest, std::to_string(i + 1)});
+                              colour_of(fixations, i + 1), std::to_string(i + 1)});
   return shapes;
 }
 

@@ -36,7 +36,8 @@ struct OverlayShapes {
 };
 
 /// The outlines, scan path and numbered fixations of a result that the style asks for, at their places in
-/// `view`. `unit` is the size of a pixel of a screen of usual density.
+/// `view`; doubtful fixations (is_doubtful) are faint. `unit` is the size of a pixel of a screen of usual
+/// density.
 [[nodiscard]] OverlayShapes overlay_shapes(const Computed& computed, const OverlayStyle& style,
                                            const PictureView& view, double unit);
 

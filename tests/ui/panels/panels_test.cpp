@@ -1,4 +1,6 @@
 // The viewer's own panels, drawn without a display: what they show and what a click in them does.
+#include <cmath>
+
 #include <gmock/gmock.h>
 
 #include "core/error.hpp"
@@ -83,6 +85,18 @@ TEST_F(ViewerPanelsTest, TuningEditsTheSideThatIsChosen) {
   click("kernel", draw, 0.5F);
   EXPECT_GT(state_.settings.b.kernel, 50);
   EXPECT_EQ(state_.settings.a.kernel, Settings{}.kernel);
+}
+
+TEST_F(ViewerPanelsTest, TheLeastConfidenceIsSetByItsSliderForProtoOnly) {
+  const Draw draw = [this] { draw_tuning_panel(view_); };
+  click("confidence", draw, 0.75F);
+  const double least = state_.settings.a.min_confidence;
+  EXPECT_NEAR(least, 0.75, 0.1);
+  EXPECT_EQ(least, std::round(100 * least) / 100);
+  state_.settings.a.selector = Selector::wta;
+  view_.places.clear();
+  settled(draw);
+  EXPECT_FALSE(view_.places.contains("confidence"));
 }
 
 TEST_F(ViewerPanelsTest, AModelOfTheImageHasNoKernel) {

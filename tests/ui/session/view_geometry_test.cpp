@@ -116,6 +116,17 @@ TEST_F(ShapesTest, LieInTheMiddleOfTheirPixelsAndTheFirstIsOnTop) {
   EXPECT_FALSE(shapes.lines.back().closed) << "the scan path lies over the outlines";
 }
 
+TEST_F(ShapesTest, ADoubtfulFixationIsFaintWithItsOutline) {
+  auto& first = computed_.result.attention.fixations[0];
+  first.confidence = 0.8F;
+  const OverlayShapes sure = overlay_shapes(computed_, {}, view_, 1);
+  first.confidence = 0.2F;
+  const OverlayShapes doubtful = overlay_shapes(computed_, {}, view_, 1);
+  EXPECT_LT(doubtful.marks.back().rim.a, sure.marks.back().rim.a / 2);
+  EXPECT_LT(doubtful.lines[3].colour.a, sure.lines[3].colour.a / 2) << "the outline of rank 1 is drawn last";
+  EXPECT_EQ(doubtful.marks.front().rim, sure.marks.front().rim);
+}
+
 TEST_F(ShapesTest, AMarkIsFoundUnderTheMouse) {
   OverlayShapes shapes = overlay_shapes(computed_, {}, view_, 1);
   EXPECT_EQ(mark_under(shapes, {41, 21}), 0);
