@@ -60,19 +60,19 @@ void CombinedModel::reduce(const cv::Mat1f& map, cv::Mat1f& reduced) {
   divide_by_maximum(reduced);
 }
 
-// Median of every 16th pixel.
-float CombinedModel::trust_in_3d(const cv::Mat1f& depth_mm) {
-  constexpr float kNearMm = 1000;
-  constexpr int kStep = 1 << kReducedLevel;
-  depths_.clear();
-  for (int r = 0; r < depth_mm.rows; r += kStep)
-    for (int c = 0; c < depth_mm.cols; c += kStep)
-      if (depth_mm(r, c) > 0) depths_.push_back(depth_mm(r, c));
-  if (depths_.empty()) return 0;
-  const auto median = depths_.begin() + static_cast<std::ptrdiff_t>(depths_.size() / 2);
-  std::nth_element(depths_.begin(), median, depths_.end());
-  const float x = *median / kNearMm;
-  return 1 / (1 + (x * x) * (x * x));
+// reduced3d_ becomes the combined map at 1/4 of the image.
+void CombinedModel::combine() {
+  constexpr float kWeightOf2d = 0.25F, kWeightOf3d = 0.5F, kFlat = 0.35F, kEvidence = 0.002F;
+  cv::scaleAdd(reduced2d_, kWeightOf2d, reduced_itti_, reduced_itti_);
+  divide_by_maximum(reduced_itti_);
+  for_row_bands(pool_, reduced3d_.rows, [&](int begin, int end) {
+    for (int r = begin; r < end; ++r)
+      for (int c = 0; c < reduced3d_.cols; ++c) {
+        const float image = reduced_itti_(r, c), evidence = reduced3d_(r, c);
+        const float either = 1 - (1 - kWeightOf3d * evidence) * (1 - image);
+        reduced3d_(r, c) = either * (kFlat + (1 - kFlat) * evidence / (evidence + kEvidence));
+      }
+  });
 }
 
 void CombinedModel::compute(const Frame& frame, RequestedOutputs outputs, SaliencyMaps& maps,
@@ -86,10 +86,7 @@ void CombinedModel::compute(const Frame& frame, RequestedOutputs outputs, Salien
   reduce(sums_[0], reduced3d_);
   reduce(maps_itti_.master, reduced_itti_);
   reduce(maps2d_.master, reduced2d_);
-  const float trust = trust_in_3d(frame.depth_mm);
-  reduced3d_ *= 0.5F + 0.5F * trust;
-  cv::scaleAdd(reduced_itti_, 1 - trust, reduced3d_, reduced3d_);
-  cv::scaleAdd(reduced2d_, (1 - trust) / 4, reduced3d_, reduced3d_);
+  combine();
   maps.master.create(frame.size());
   for_row_bands(pool_, frame.size().height, [&](int begin, int end) {
     upsample_rows(reduced3d_, kReducedLevel, maps.master, false, begin, end);

@@ -14,11 +14,12 @@ namespace saccade {
 ///       w_l(z) = 1/(1 + (z/(z_0 2^l))^2),   z_0 = 500 mm:
 ///     the noise of a sensor grows with z^2 and each level smooths it; where it is large, fine levels find
 ///     symmetry in noise. The weighted levels are added as in Eq. (15).
-///  2. This map, that of itti and that of symmetry2d are reduced to 1/4 of the image, smoothed by a Gaussian
-///     of 6 px and divided by their maximum.
-///  3. They are added with more trust t in 3D the nearer the scene is, z being the median depth of the frame,
-///       (1/2 + t/2) * 3D + (1 - t) * (itti + 1/4 * symmetry2d),   t = 1/(1 + (z/z_1)^4),   z_1 = 1000 mm,
-///     and the sum is brought back to full size. Without any depth t = 0, and the image alone counts.
+///  2. This map x, that of itti and that of symmetry2d are reduced to 1/4 of the image, smoothed by a
+///  Gaussian
+///     of 6 px and divided by their maximum; so is the image's saliency I = itti + 1/4 symmetry2d.
+///  3. A place is salient if it stands out in either, and more so if there is any 3D evidence at it:
+///       S = (1 - (1 - b x)(1 - I)) (a + (1 - a) x/(x + e)),   b = 0.5, a = 0.35, e = 0.002,
+///     brought back to full size; range 0..1. Without any depth S = a I, and the image alone counts.
 class CombinedModel : public SaliencyModel {
  public:
   /// Throws Error (usage) as Symmetry3d.
@@ -28,7 +29,7 @@ class CombinedModel : public SaliencyModel {
  private:
   void weigh_levels(const cv::Mat1f& depth_mm);
   void reduce(const cv::Mat1f& map, cv::Mat1f& reduced);
-  float trust_in_3d(const cv::Mat1f& depth_mm);
+  void combine();
 
   WorkerPool& pool_;
   int first_level_;
@@ -37,7 +38,6 @@ class CombinedModel : public SaliencyModel {
   SaliencyMaps maps3d_, maps_itti_, maps2d_;
   std::vector<cv::Mat1f> sums_;  ///< of the weighted levels, by level
   cv::Mat1f half_, reduced3d_, reduced_itti_, reduced2d_;
-  std::vector<float> depths_;
 };
 
 }  // namespace saccade

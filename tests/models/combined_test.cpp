@@ -23,9 +23,21 @@ Frame ball_and_picture(float wall_mm) {
   return frame;
 }
 
-TEST(Combined, FollowsShapeWhereThingsAreNearAndTheImageWhereTheyAreFar) {
-  EXPECT_LT(maximum_of(map_of("combined", ball_and_picture(600))).x, 160);
-  EXPECT_GT(maximum_of(map_of("combined", ball_and_picture(3000))).x, 160);
+// The ball has the colour of the wall, the disc its depth.
+TEST(Combined, PrefersTheSolidOverThePictureAtAnyDistance) {
+  for (const float wall_mm : {600.0F, 1500.0F, 3000.0F}) {
+    const cv::Mat1f map = map_of("combined", ball_and_picture(wall_mm));
+    EXPECT_LT(maximum_of(map).x, 160) << wall_mm;
+    EXPECT_LE(map(maximum_of(map)), 1) << wall_mm;
+  }
+}
+
+// Two things that look alike, one of them flat.
+TEST(Combined, PrefersTheSolidOfTwoThingsThatLookAlike) {
+  Frame frame = ball_and_picture(1500);
+  cv::circle(frame.colour, {80, 120}, 20, {40, 40, 220}, cv::FILLED);
+  const cv::Mat1f map = map_of("combined", frame);
+  EXPECT_GT(map(120, 80), 2 * map(120, 240));
 }
 
 TEST(Combined, SeesBothAtAnyDistance) {
@@ -45,15 +57,13 @@ TEST(Combined, WithoutDepthIsTheImageAlone) {
 }
 
 // Each step of the header in double, from the maps of the single models.
-TEST(Combined, IsTheWeightedSumOfItsMaps) {
+TEST(Combined, IsTheEquationOfItsMaps) {
   const Frame frame = ball_and_picture(1100);
   WorkerPool pool(1);
   SaliencyMaps maps;
   StageTimes times;
   make_model(settings_for("symmetry3d"), pool)->compute(frame, {.levels = true}, maps, times);
   cv::Mat1d noise_aware(frame.size(), 0.0);
-  std::vector<float> depths(frame.depth_mm.begin(), frame.depth_mm.end());
-  std::sort(depths.begin(), depths.end());
   for (std::size_t l = 0; l < maps.levels.size(); ++l) {
     cv::Mat1d weighted(maps.levels[l].size());
     for (int r = 0; r < weighted.rows; ++r)
@@ -81,14 +91,17 @@ TEST(Combined, IsTheWeightedSumOfItsMaps) {
     cv::minMaxLoc(map, nullptr, &highest);
     return as_double(map, 1 / highest);
   };
-  const double x = static_cast<double>(depths[depths.size() / 2]) / 1000, trust = 1 / (1 + std::pow(x, 4));
-  const cv::Mat1d depth_part = reduce(noise_aware), itti = reduce(map_of("itti", frame)),
-                  grey_part = reduce(map_of("symmetry2d", frame));
+  const cv::Mat1d depth_part = reduce(noise_aware);
+  cv::Mat1d image;
+  cv::scaleAdd(reduce(map_of("symmetry2d", frame)), 0.25, reduce(map_of("itti", frame)), image);
+  double highest = 0;
+  cv::minMaxLoc(image, nullptr, &highest);
+  image /= highest;
   const cv::Mat1f map = map_of("combined", frame);
-  for (int r = 0; r < itti.rows; ++r)
-    for (int c = 0; c < itti.cols; ++c) {
-      const double expected =
-          (0.5 + 0.5 * trust) * depth_part(r, c) + (1 - trust) * (itti(r, c) + 0.25 * grey_part(r, c));
+  for (int r = 0; r < image.rows; ++r)
+    for (int c = 0; c < image.cols; ++c) {
+      const double x = depth_part(r, c);
+      const double expected = (1 - (1 - 0.5 * x) * (1 - image(r, c))) * (0.35 + 0.65 * x / (x + 0.002));
       ASSERT_NEAR(static_cast<double>(map(4 * r, 4 * c)), expected, 1e-3) << r << " " << c;
     }
 }
