@@ -64,6 +64,7 @@ class FolderSource final : public FrameSource {
     info_.size = first_size();
     info_.frame_count = static_cast<std::int64_t>(listing_.entries.size());
     info_.rate_hz = listing_.rate_hz;
+    info_.sequence = listing_.sequence;
     info_.notes = listing_.notes;
     auto camera = read_meta(input.path);
     if (!camera) camera = camera_of_cloud();
@@ -82,6 +83,7 @@ class FolderSource final : public FrameSource {
     frame.name = entry.name;
     frame.intrinsics = info_.intrinsics;
     frame.truth.normals.release();
+    frame.truth.camera_to_world = entry.camera_to_world;
     fs::path current = entry.depth;
     try {
       read_depth(current, frame);

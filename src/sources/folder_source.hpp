@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,10 +14,11 @@ namespace saccade {
 
 /// One frame of a folder: its files, not yet opened.
 struct FolderEntry {
-  std::string name;                            ///< "0007", or the time stamp in a TUM folder
-  std::int64_t timestamp_us = 0;               ///< from the first frame
-  std::filesystem::path depth, colour, label;  ///< colour and label may be empty
-  std::filesystem::path classes{};             ///< may be empty
+  std::string name;                               ///< "0007", or the time stamp in a TUM folder
+  std::int64_t timestamp_us = 0;                  ///< from the first frame
+  std::filesystem::path depth, colour, label;     ///< colour and label may be empty
+  std::filesystem::path classes{};                ///< may be empty
+  std::optional<cv::Affine3d> camera_to_world{};  ///< as in GroundTruth
 };
 
 /// The frames that a folder layout finds, in their order.
@@ -24,6 +26,7 @@ struct FolderListing {
   std::vector<FolderEntry> entries;  ///< not empty
   double mm_per_unit = 1;            ///< of depth images
   double rate_hz = 30;
+  bool sequence = false;             ///< as in SourceInfo
   std::vector<std::string> notes{};  ///< as in SourceInfo
   std::filesystem::path cloud{};     ///< an organised point cloud, which shows the camera; may be empty
   bool colours_are_labels = false;   ///< each colour but black of a label image is an object

@@ -8,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "sources/folder_source.hpp"
+#include "sources/poses_file.hpp"
 
 namespace saccade {
 namespace fs = std::filesystem;
@@ -66,8 +67,11 @@ FolderListing list_numbered(const fs::path& folder) {
     if (!found.emplace(*number, entry).second)
       throw unreadable("two depth images have the same number", file.path().string(), "rename or delete one");
   }
+  const std::vector<cv::Affine3d> poses = read_poses(folder);
   FolderListing listing;
+  listing.sequence = !poses.empty();
   for (auto& [number, entry] : found) {
+    if (listing.entries.size() < poses.size()) entry.camera_to_world = poses[listing.entries.size()];
     entry.timestamp_us =
         std::llround(static_cast<double>(number - found.begin()->first) * 1e6 / listing.rate_hz);
     listing.entries.push_back(entry);

@@ -60,6 +60,7 @@ void OniSource::fill_info(const std::filesystem::path& path) {
   info_.size = format.size;
   info_.frame_count = static_cast<std::int64_t>(depth_->frames.size());
   info_.rate_hz = format.rate_hz;
+  info_.sequence = true;
   const auto camera = intrinsics_at(*depth_, depth_->frames.front().payload_position, format.size);
   info_.intrinsics = camera.value_or(Intrinsics::guess_for(format.size));
   if (info_.intrinsics.origin == IntrinsicsOrigin::guess)

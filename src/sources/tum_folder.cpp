@@ -65,6 +65,7 @@ FolderListing list_tum(const fs::path& folder) {
       ++without;
     listing.entries.push_back(entry);
   }
+  listing.sequence = true;
   const double span_s = depth.back().time_s - depth.front().time_s;
   if (span_s > 0) listing.rate_hz = static_cast<double>(depth.size() - 1) / span_s;
   if (!colour.empty() && without > 0)

@@ -19,6 +19,8 @@
 #include "sources/source_kind.hpp"
 
 namespace saccade {
+
+extern const SourceKind kVideoKind;
 namespace fs = std::filesystem;
 namespace {
 
@@ -43,6 +45,7 @@ class DepthVideoSource final : public FrameSource {
     info_.kind = kind;
     info_.size = depth_->size();
     info_.rate_hz = depth_->rate_hz();
+    info_.sequence = kind == kVideoKind.name;
     set_camera(info_, input.path.parent_path());
     tolerance_us_ = std::llround(0.75e6 / info_.rate_hz);
     if (!colour_) return;
@@ -107,6 +110,7 @@ class ColourVideoSource final : public FrameSource {
     info_.kind = kind;
     info_.size = video_->size();
     info_.rate_hz = video_->rate_hz();
+    info_.sequence = kind == kVideoKind.name;
     info_.has_depth = false;
     info_.notes.emplace_back(kNoDepthNote);
     set_camera(info_, path_.parent_path());

@@ -29,7 +29,7 @@ class WebcamSource final : public FrameSource {
     info_.kind = "v4l2";
     info_.size = first.size();
     info_.rate_hz = std::max(0.0, capture_[0].get(cv::CAP_PROP_FPS));
-    info_.live = true;
+    info_.live = info_.sequence = true;
     info_.has_depth = false;
     info_.notes.emplace_back(kNoDepthNote);
     info_.intrinsics = Intrinsics::guess_for(info_.size);

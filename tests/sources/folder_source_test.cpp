@@ -84,6 +84,23 @@ TEST_F(FolderSourceTest, ReadsFramesInTheOrderOfTheirNumbersWithColourAndLabels)
   EXPECT_EQ(frame.name, "10");
 }
 
+TEST_F(FolderSourceTest, PosesMakeASequence) {
+  for (const char* name : {"0_depth.png", "1_depth.png", "2_depth.png"}) put_depth(name, 1000);
+  EXPECT_FALSE(open_source(folder_.string())->info().sequence);
+  put_text("poses.txt", "1 0 0 0  0 1 0 0  0 0 1 0  0 0 0 1\n\n1 0 0 0.5 0 1 0 -0.25 0 0 1 2 0 0 0 1\n");
+  const auto source = open_source(folder_.string());
+  EXPECT_TRUE(source->info().sequence);
+  Frame frame;
+  ASSERT_EQ(source->read(frame, kNoWait).status, ReadStatus::frame);
+  ASSERT_EQ(source->read(frame, kNoWait).status, ReadStatus::frame);
+  ASSERT_TRUE(frame.truth.camera_to_world);
+  EXPECT_EQ(frame.truth.camera_to_world->translation(), cv::Vec3d(500, -250, 2000)) << "in mm";
+  ASSERT_EQ(source->read(frame, kNoWait).status, ReadStatus::frame);
+  EXPECT_FALSE(frame.truth.camera_to_world) << "there is no third pose";
+  put_text("poses.txt", "1 0 0 0  0 1 0 0  0 0 1 0  0 0 0\n");
+  EXPECT_THAT(error(), HasSubstr("pose 0 is not 16 numbers"));
+}
+
 TEST_F(FolderSourceTest, GapsInTheNumbersAreReported) {
   for (const char* name : {"0001_depth.png", "0003_depth.png", "0007_depth.png"}) put_depth(name, 1000);
   EXPECT_THAT(open_source(folder_.string())->info().notes,
