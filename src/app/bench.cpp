@@ -57,7 +57,7 @@ Measurement measure(const SensorSize& sensor, const Settings& settings, double s
   constexpr int kLeastFrames = 5;
   Measurement measurement;
   measurement.sensor = sensor;
-  const auto processor = make_processor({settings, settings, {}, worker_count(settings)});
+  const auto processor = make_processor({settings, settings, {}, {}, worker_count(settings)});
   Result result;
   result.frame = table_frame(sensor.size);
   measurement.valid = static_cast<double>(cv::countNonZero(result.frame.depth_mm)) / sensor.size.area();

@@ -53,8 +53,7 @@ class Run {
 
   void execute(const std::string& uri) {
     auto source = open(uri);
-    auto processor = make_processor(
-        {report_.settings, report_.settings, requested_outputs(report_.settings), report_.workers});
+    auto processor = make_processor(processor_options());
     make_output_folder(folder_);
     write_manifest();
     try {
@@ -84,6 +83,14 @@ class Run {
     check_dump(settings, settings.model);
     check_start(report_.source, settings.start);
     return source;
+  }
+
+  ProcessorOptions processor_options() const {
+    const Settings& settings = report_.settings;
+    ProcessorOptions options{settings, settings, {}, requested_outputs(settings), report_.workers};
+    if (tracks(settings, settings.selector, report_.source.sequence, report_.source.uri))
+      options.tracking = settings;
+    return options;
   }
 
   void process(std::unique_ptr<FrameSource> source, std::unique_ptr<FrameProcessor> processor) {
@@ -132,6 +139,7 @@ class Run {
       }
       fixations.append(fixations_json(*result));
       report_.stages.add(result->times);
+      report_.tracks.add(result->frame.index, result->attention);
       writer.submit(std::move(result));
       progress.update(pipeline.ledger().processed, more);
     }
