@@ -48,7 +48,8 @@ EvalPlan make_plan(const EvalArguments& arguments, const Settings& settings, con
   EvalPlan plan;
   plan.dataset = arguments.dataset;
   plan.settings = settings;
-  plan.points = arguments.points;
+  constexpr int kUsualPoints = 30;
+  plan.points = arguments.points.value_or(kUsualPoints);
   plan.positions = count_frames(source, settings);
   parse_lists(plan, arguments.models, arguments.kernels, arguments.selectors);
   parse_shard(plan, arguments.shard);
