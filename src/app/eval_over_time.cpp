@@ -15,6 +15,7 @@
 #include "eval/plan.hpp"
 #include "eval/sequence_evaluation.hpp"
 #include "models/model.hpp"
+#include "output/json_text.hpp"
 #include "sources/open_source.hpp"
 
 namespace saccade {

@@ -1,5 +1,9 @@
 #include "output/frame_writer.hpp"
 
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <string_view>
 #include <vector>
 
 #include <fmt/format.h>
@@ -14,6 +18,10 @@
 namespace saccade {
 namespace {
 
+bool is_number(std::string_view text) {
+  return std::ranges::all_of(text, [](unsigned char c) { return std::isdigit(c) != 0; });
+}
+
 // Uncompressed, for any reader.
 void write_tiff(const std::filesystem::path& path, const cv::Mat& image) {
   constexpr int kNoCompression = 1;
@@ -21,6 +29,20 @@ void write_tiff(const std::filesystem::path& path, const cv::Mat& image) {
   if (!cv::imencode(".tiff", image, bytes, {cv::IMWRITE_TIFF_COMPRESSION, kNoCompression}))
     throw failed("cannot encode TIFF", path.string(), "is there enough memory?");
   write_file(path, bytes);
+}
+
+// Whether write_frame() gives a file this name: "000012_saliency.tiff".
+bool is_frame_file(std::string_view name) {
+  constexpr std::array<std::string_view, 6> kEndings = {"saliency.tiff", "saliency.png", "normals.tiff",
+                                                        "masks.png",     "labels.png",   "overlay.png"};
+  constexpr std::string_view kLevel = "level", kTiff = ".tiff";
+  const auto line = name.find('_');
+  if (line < 6 || line == std::string_view::npos || !is_number(name.substr(0, line))) return false;
+  std::string_view ending = name.substr(line + 1);
+  if (std::ranges::count(kEndings, ending) > 0) return true;
+  if (!ending.starts_with(kLevel) || !ending.ends_with(kTiff)) return false;
+  ending.remove_prefix(kLevel.size());
+  return ending.size() > kTiff.size() && is_number(ending.substr(0, ending.size() - kTiff.size()));
 }
 
 }  // namespace
@@ -53,6 +75,18 @@ void write_frame(const std::filesystem::path& folder, const Result& result, cons
   if (dump.contains("overlay"))
     write_file(path("overlay.png"),
                encode_png(draw_overlay(result.frame, maps.master, result.attention, style)));
+}
+
+void remove_frame_files(const std::filesystem::path& folder) {
+  namespace fs = std::filesystem;
+  std::error_code code;
+  std::vector<fs::path> files;
+  for (fs::directory_iterator file(folder, code), end; !code && file != end; file.increment(code))
+    if (is_frame_file(file->path().filename().string())) files.push_back(file->path());
+  for (const fs::path& file : files)
+    if (!fs::remove(file, code) && code)
+      throw failed("cannot remove a file of an earlier run: " + code.message(), file.string(),
+                   "choose another --out");
 }
 
 }  // namespace saccade

@@ -22,4 +22,8 @@ namespace saccade {
 void write_frame(const std::filesystem::path& folder, const Result& result, const std::set<std::string>& dump,
                  int first_level, const OverlayStyle& style = {});
 
+/// Removes the maps and pictures that write_frame() wrote into `folder` in an earlier run. Others stay, also
+/// depth, colour and clouds. Throws Error (failed).
+void remove_frame_files(const std::filesystem::path& folder);
+
 }  // namespace saccade

@@ -3,17 +3,30 @@
 #include <utility>
 
 namespace saccade {
+namespace {
+
+// Lets the threads that wait for `changed` see that they are to end.
+void raise_flag(bool& flag, std::mutex& mutex, std::condition_variable& changed) {
+  {
+    const std::lock_guard lock(mutex);
+    flag = true;
+  }
+  changed.notify_all();
+}
+
+}  // namespace
 
 WriterPool::WriterPool(int threads, std::function<void(const Result&)> write) : write_(std::move(write)) {
-  for (int i = 0; i < threads; ++i) threads_.emplace_back([this] { work(); });
+  try {
+    for (int i = 0; i < threads; ++i) threads_.emplace_back([this] { work(); });
+  } catch (...) {  // the system has no more threads
+    raise_flag(closed_, mutex_, changed_);
+    throw;
+  }
 }
 
 WriterPool::~WriterPool() {
-  {
-    const std::lock_guard lock(mutex_);
-    closed_ = true;
-  }
-  changed_.notify_all();
+  raise_flag(closed_, mutex_, changed_);
   threads_.clear();  // joins
 }
 

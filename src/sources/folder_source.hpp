@@ -30,14 +30,15 @@ struct FolderListing {
   std::vector<std::string> notes{};  ///< as in SourceInfo
   std::filesystem::path cloud{};     ///< an organised point cloud, which shows the camera; may be empty
   bool colours_are_labels = false;   ///< each colour but black of a label image is an object
+  bool scales_colour = false;  ///< to the depth's size; else a frame with colour of another size is rejected
 };
 
-/// Opens the frames of `listing`, found in the folder `input`, as a source of kind `kind`. Depth is a 16-bit
+/// Opens the frames of `listing`, found in `folder`, as a source of kind `kind`. Depth is a 16-bit
 /// grey PNG, or z of an organised PCD; label and class images are grey or palette. Every frame has the size
 /// of the first that is usable. The camera is that of meta.json (read_meta()), else the one that fits the
 /// points of the cloud, else a guess. A frame that cannot be used is rejected with the reason. Throws Error
 /// (unreadable): no depth image is usable, meta.json is broken.
-std::unique_ptr<FrameSource> open_folder(const SourceInput& input, std::string_view kind,
-                                         FolderListing listing);
+std::unique_ptr<FrameSource> open_folder(const SourceInput& input, const std::filesystem::path& folder,
+                                         std::string_view kind, FolderListing listing);
 
 }  // namespace saccade

@@ -14,6 +14,7 @@
 #include <fmt/ranges.h>
 
 #include "core/error.hpp"
+#include "core/image_size.hpp"
 #include "scene/random.hpp"
 #include "scene/strips.hpp"
 #include "sources/source_kind.hpp"
@@ -50,10 +51,10 @@ bool read_number(string_view text, Number low, Number high, Target& target) {
 }
 
 bool read_size(string_view text, cv::Size& size) {
-  constexpr int kLargest = 8192;
   const auto cross = text.find('x');
-  return cross != string_view::npos && read_number(text.substr(0, cross), 1, kLargest, size.width) &&
-         read_number(text.substr(cross + 1), 1, kLargest, size.height);
+  return cross != string_view::npos && read_number(text.substr(0, cross), 1, kLargestSide, size.width) &&
+         read_number(text.substr(cross + 1), 1, kLargestSide, size.height) &&
+         std::int64_t{size.width} * size.height <= kMostPixels;
 }
 
 // One of the words for the values of an enumeration, in their order.
@@ -85,7 +86,7 @@ constexpr std::array<Key, 12> kKeys = {{
      [](string_view v, Spec& s) { return read_number<std::int64_t>(v, 1, 1'000'000, s.frames); }},
     {"scenes", "an integer, 1..1000000",
      [](string_view v, Spec& s) { return read_number<std::int64_t>(v, 1, 1'000'000, s.scenes); }},
-    {"size", "WxH with both in 1..8192, e.g. 640x480",
+    {"size", "WxH with both in 1..8192 and at most 16 megapixels, e.g. 640x480",
      [](string_view v, Spec& s) { return read_size(v, s.size); }},
     {"camera", "still, orbit, pan or walk",
      [](string_view v, Spec& s) {

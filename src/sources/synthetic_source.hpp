@@ -23,7 +23,7 @@ struct SyntheticSpec {
   double missing = 0;         ///< missing=0..0.9: share without a reading, at least; upright strips
   std::int64_t frames = 90;   ///< frames=1..1000000
   std::int64_t scenes = 1;    ///< scenes=1..1000000: frame k shows the scene of seed + k mod scenes
-  cv::Size size{640, 480};    ///< size=WxH, 1x1..8192x8192
+  cv::Size size{640, 480};    ///< size=WxH, as check_image_size() allows
   scene::CameraPath camera = scene::CameraPath::still;  ///< camera=still | orbit | pan | walk
   scene::EventKind event = scene::EventKind::none;      ///< event=none | move | add | take | hide
   double at_s = 2;                                      ///< at=0..86400, s: when the event begins

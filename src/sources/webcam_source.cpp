@@ -5,7 +5,7 @@
 #include <opencv2/videoio.hpp>
 
 #include "core/error.hpp"
-#include "sources/depth_video.hpp"
+#include "sources/colour_video.hpp"
 #include "sources/frame_fields.hpp"
 #include "sources/source_kind.hpp"
 
@@ -72,6 +72,7 @@ extern const SourceKind kWebcamKind = {
       return std::make_unique<WebcamSource>(input.uri);
     },
     .is_path = false,
+    .is_device = true,
 };
 
 }  // namespace saccade
