@@ -110,7 +110,7 @@ class Run {
     Pipeline pipeline(std::move(source), std::move(processor), pipeline_options(writers));
     const Interrupt::Handler handler(interrupt_, [&] { pipeline.stop(); });
     WriterPool writer(writers, [&](const Result& result) {
-      write_frame(folder_, result, settings.dump, settings.first_level);
+      write_frame(folder_, result, settings.dump, settings.first_level, settings.overlay);
     });
     try {
       write_results(pipeline, writer, fixations, progress);

@@ -31,7 +31,8 @@ void write_tiff(const std::filesystem::path& path, const cv::Mat& image) {
   write_file(path, bytes);
 }
 
-// Whether write_frame() gives a file this name: "000012_saliency.tiff".
+// Whether this is a map or picture of write_frame(): "000012_saliency.tiff". Not depth, colour and clouds:
+// they may be the only copy of a recording.
 bool is_frame_file(std::string_view name) {
   constexpr std::array<std::string_view, 6> kEndings = {"saliency.tiff", "saliency.png", "normals.tiff",
                                                         "masks.png",     "labels.png",   "overlay.png"};
@@ -43,6 +44,34 @@ bool is_frame_file(std::string_view name) {
   if (!ending.starts_with(kLevel) || !ending.ends_with(kTiff)) return false;
   ending.remove_prefix(kLevel.size());
   return ending.size() > kTiff.size() && is_number(ending.substr(0, ending.size() - kTiff.size()));
+}
+
+void append(std::vector<std::uint8_t>& bytes, const void* data, std::size_t size) {
+  const auto* begin = static_cast<const std::uint8_t*>(data);
+  bytes.insert(bytes.end(), begin, begin + size);
+}
+
+// The points of all pixels with a reading, row by row; grey where the frame has no colour.
+std::vector<std::uint8_t> cloud_ply(const Frame& frame) {
+  const std::string header = fmt::format(
+      "ply\nformat binary_little_endian 1.0\nelement vertex {}\nproperty float x\nproperty float y\n"
+      "property float z\nproperty uchar red\nproperty uchar green\nproperty uchar blue\nend_header\n",
+      cv::countNonZero(frame.depth_mm > 0));
+  std::vector<std::uint8_t> bytes(header.begin(), header.end());
+  const Intrinsics& camera = frame.intrinsics;
+  for (int r = 0; r < frame.depth_mm.rows; ++r)
+    for (int c = 0; c < frame.depth_mm.cols; ++c) {
+      const auto z = static_cast<double>(frame.depth_mm(r, c));
+      if (!(z > 0)) continue;
+      const std::array<float, 3> point = {static_cast<float>((c - camera.cx) / camera.fx * z),
+                                          static_cast<float>((r - camera.cy) / camera.fy * z),
+                                          static_cast<float>(z)};
+      const cv::Vec3b bgr = frame.colour.empty() ? cv::Vec3b(160, 160, 160) : frame.colour(r, c);
+      const std::array<std::uint8_t, 3> rgb = {bgr[2], bgr[1], bgr[0]};
+      append(bytes, point.data(), sizeof point);
+      append(bytes, rgb.data(), sizeof rgb);
+    }
+  return bytes;
 }
 
 }  // namespace
@@ -57,6 +86,14 @@ void write_frame(const std::filesystem::path& folder, const Result& result, cons
     write_tiff(path("saliency.tiff"), maps.master);
     write_file(path("saliency.png"), encode_png(to_grey(maps.master)));
   }
+  const Frame& frame = result.frame;
+  if (dump.contains("depth")) {
+    cv::Mat1w depth;
+    frame.depth_mm.convertTo(depth, CV_16U);
+    write_file(path("depth.png"), encode_png(depth));
+  }
+  if (dump.contains("colour") && !frame.colour.empty()) write_file(path("rgb.png"), encode_png(frame.colour));
+  if (dump.contains("cloud")) write_file(path("cloud.ply"), cloud_ply(frame));
   if (dump.contains("levels"))
     for (std::size_t i = 0; i < maps.levels.size(); ++i)
       write_tiff(path(fmt::format("level{}.tiff", first_level + static_cast<int>(i))), maps.levels[i]);
