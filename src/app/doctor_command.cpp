@@ -16,18 +16,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Examination examine(const std::string& sysfs) {
-  Examination found;
-  found.openni2 = find_openni2();
-  found.usb = find_usb_sensors(sysfs);
-  try {
-    found.devices = list_devices();
-  } catch (const Error& error) {
-    found.openni2_error = error.what();
-  }
-  return found;
-}
-
 const char* to_text(UsbSensor::Access access) {
   switch (access) {
     case UsbSensor::Access::granted:
