@@ -123,7 +123,7 @@ TEST_F(ViewerTest, TheScreenshotShowsTheFrameAtAnyScale) {
   keep_state(R"({"map": false, "marks": false, "path": false, "outlines": false})");
   for (const char* scale : {"1", "2"}) {
     ASSERT_EQ(run({kTable, "--start", "5", "--frames", "1", "--size", "1280x800", "--ui-scale", scale,
-                   "--screenshot", in("shot.png")}),
+                   "--min-confidence", "0", "--screenshot", in("shot.png")}),
               0);
     const cv::Mat3b shot = decode_png(read_file(in("shot.png")));
     ASSERT_EQ(shot.size(), cv::Size(1280, 800));
