@@ -7,28 +7,18 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <opencv2/imgcodecs.hpp>
-#include <opencv2/imgproc.hpp>
 
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "core/png.hpp"
 #include "output/colour_map.hpp"
+#include "output/tiff.hpp"
 
 namespace saccade {
 namespace {
 
 bool is_number(std::string_view text) {
   return std::ranges::all_of(text, [](unsigned char c) { return std::isdigit(c) != 0; });
-}
-
-// Uncompressed, for any reader.
-void write_tiff(const std::filesystem::path& path, const cv::Mat& image) {
-  constexpr int kNoCompression = 1;
-  std::vector<std::uint8_t> bytes;
-  if (!cv::imencode(".tiff", image, bytes, {cv::IMWRITE_TIFF_COMPRESSION, kNoCompression}))
-    throw failed("cannot encode TIFF", path.string(), "is there enough memory?");
-  write_file(path, bytes);
 }
 
 // Whether this is a map or picture of write_frame(): "000012_saliency.tiff". Not depth, colour and clouds:
@@ -83,7 +73,7 @@ void write_frame(const std::filesystem::path& folder, const Result& result, cons
   };
   const SaliencyMaps& maps = result.maps;
   if (dump.contains("maps")) {
-    write_tiff(path("saliency.tiff"), maps.master);
+    write_file(path("saliency.tiff"), encode_tiff(maps.master));
     write_file(path("saliency.png"), encode_png(to_grey(maps.master)));
   }
   const Frame& frame = result.frame;
@@ -96,12 +86,9 @@ void write_frame(const std::filesystem::path& folder, const Result& result, cons
   if (dump.contains("cloud")) write_file(path("cloud.ply"), cloud_ply(frame));
   if (dump.contains("levels"))
     for (std::size_t i = 0; i < maps.levels.size(); ++i)
-      write_tiff(path(fmt::format("level{}.tiff", first_level + static_cast<int>(i))), maps.levels[i]);
-  if (dump.contains("normals")) {
-    cv::Mat3f xyz;  // the encoder expects B, G, R and reverses the channels
-    cv::cvtColor(maps.normals, xyz, cv::COLOR_BGR2RGB);
-    write_tiff(path("normals.tiff"), xyz);
-  }
+      write_file(path(fmt::format("level{}.tiff", first_level + static_cast<int>(i))),
+                 encode_tiff(maps.levels[i]));
+  if (dump.contains("normals")) write_file(path("normals.tiff"), encode_tiff(maps.normals));
   if (dump.contains("masks")) {
     const bool none = result.attention.masks.empty();
     write_file(path("masks.png"),
