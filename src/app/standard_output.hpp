@@ -12,7 +12,7 @@ namespace saccade {
 void open_standard_streams();
 
 /// Print on standard output, at once. Throw Error (failed) if that cannot be written, e.g. on a full disk.
-/// `text` is for people: what is not printable in it is escaped, except line breaks.
+/// Characters of `text` that cannot be printed are escaped, except line breaks.
 void print_text(std::string_view text);
 /// A value, as by dump(), and a line break.
 void print_json(const nlohmann::ordered_json& json, int indent = -1);

@@ -18,7 +18,7 @@ enum class ExitStatus {
 class Error : public std::runtime_error {
  public:
   /// what() becomes the one line "what: on (try)"; `on` and `hint` may be empty. Line breaks become blanks,
-  /// and what is not printable() is escaped.
+  /// and characters that are not printable() are escaped.
   Error(ExitStatus status, const std::string& what, const std::string& on, const std::string& hint);
 
   ExitStatus status() const noexcept { return status_; }

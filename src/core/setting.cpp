@@ -15,7 +15,6 @@ std::string_view without_blanks(std::string_view text) {
 
 }  // namespace
 
-
 std::string print_number(std::int64_t value) { return fmt::format("{}", value); }
 
 std::string print_number(double value) { return fmt::format("{}", value); }

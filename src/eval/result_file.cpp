@@ -138,8 +138,8 @@ StoredResults parse_results(const Lines& lines, const fs::path& path) {
       }
       ++number;
     }
-  } catch (const Json::exception&) {
-    throw not_results("a line is damaged or lacks a field");
+  } catch (const Json::exception&) {  // whose text is not for users
+    throw not_results("not JSON, or a field is missing or of another kind");
   } catch (const std::exception& error) {
     throw not_results(error.what());
   }

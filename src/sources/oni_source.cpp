@@ -101,9 +101,8 @@ void OniSource::note_times() {
     if (jumps++ == 0) first = k;
   }
   if (jumps > 0)
-    info_.notes.push_back(fmt::format(
-        "the time jumps {}, first at frame {}: by more than 10 s or backwards",
-        jumps == 1 ? "once" : fmt::format("{} times", jumps), first));
+    info_.notes.push_back(fmt::format("the time jumps {}, first at frame {}: by more than 10 s or backwards",
+                                      jumps == 1 ? "once" : fmt::format("{} times", jumps), first));
 }
 
 void OniSource::note_problems() {

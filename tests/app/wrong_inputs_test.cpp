@@ -41,7 +41,7 @@ class WrongInputs : public ProgramTest {
     EXPECT_TRUE(outcome.one_error_line());
     EXPECT_THAT(outcome.err, HasSubstr(part));
     EXPECT_THAT(outcome.err, Not(AnyOf(HasSubstr("unexpected"), HasSubstr("json.exception"))));
-    EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(20));
+    EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(60));
   }
 
   void put(const std::string& name, std::string_view content) const {
@@ -89,10 +89,10 @@ TEST_F(WrongInputs, Outputs) {
   EXPECT_FALSE(fs::exists(folder_ / "b.mkv"));
   expect(kUsage, "name a folder", "$P run a.oni --levels 0..2 --out -");
   expect(kUsage, "name a folder", "$P eval '" + kScene + "' --levels 0..2 --out -");
-  for (const char* command : {"run a.oni --levels 0..2 --out o", "run a.oni --levels 0..2 --out o --json",
-                              "record a.oni b.oni --force", "record a.oni b.oni --force --json",
-                              "oni info a.oni", "oni check a.oni --json", "doctor", "doctor --json", "--help",
-                              "--version", "bench --seconds 0 --levels 0..1 --json"})
+  for (const char* command :
+       {"run a.oni --levels 0..2 --out o", "run a.oni --levels 0..2 --out o --json",
+        "record a.oni b.oni --force", "record a.oni b.oni --force --json", "oni info a.oni",
+        "oni check a.oni --json", "doctor", "doctor --json", "--help", "--version"})
     expect(kFailed, "standard output", fmt::format("$P {} >/dev/full", command));
   put("c/fixations.jsonl", "");
   put("precious", "precious");

@@ -73,8 +73,7 @@ std::string remark(const ViewContext& view, const Computed& computed) {
   cv::minMaxLoc(computed.smooth, nullptr, &largest);
   const ValueRange& range = *style.map.range;
   if (largest <= static_cast<double>(range.low) + 0.01 * static_cast<double>(range.high - range.low))
-    return fmt::format("the map is below the locked range (it reaches {:.2g}): unlock it under Display",
-                       largest);
+    return fmt::format("the map is below the locked range (reaches {:.2g})", largest);
   return "";
 }
 
