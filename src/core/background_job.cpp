@@ -2,25 +2,15 @@
 
 #include <utility>
 
+#include "core/raise_flag.hpp"
+
 namespace saccade {
 
 BackgroundJob::BackgroundJob(std::function<void()> job) : job_(std::move(job)), thread_([this] { work(); }) {}
 
-BackgroundJob::~BackgroundJob() {
-  {
-    const std::lock_guard lock(mutex_);
-    stop_ = true;
-  }
-  changed_.notify_all();
-}
+BackgroundJob::~BackgroundJob() { raise_flag(stop_, mutex_, changed_); }
 
-void BackgroundJob::start() {
-  {
-    const std::lock_guard lock(mutex_);
-    running_ = true;
-  }
-  changed_.notify_all();
-}
+void BackgroundJob::start() { raise_flag(running_, mutex_, changed_); }
 
 void BackgroundJob::wait() {
   std::unique_lock lock(mutex_);

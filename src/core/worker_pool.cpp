@@ -6,19 +6,9 @@
 #include <stdexcept>
 #include <utility>
 
+#include "core/raise_flag.hpp"
+
 namespace saccade {
-namespace {
-
-// Lets the threads that wait for `changed` see that they are to end.
-void raise_flag(bool& flag, std::mutex& mutex, std::condition_variable& changed) {
-  {
-    const std::lock_guard lock(mutex);
-    flag = true;
-  }
-  changed.notify_all();
-}
-
-}  // namespace
 
 WorkerPool::WorkerPool(int workers) {
   if (workers < 1) throw std::invalid_argument("WorkerPool: workers must be at least 1");

@@ -48,17 +48,14 @@ std::vector<std::uint8_t> cloud_ply(const Frame& frame) {
       "property float z\nproperty uchar red\nproperty uchar green\nproperty uchar blue\nend_header\n",
       cv::countNonZero(frame.depth_mm > 0));
   std::vector<std::uint8_t> bytes(header.begin(), header.end());
-  const Intrinsics& camera = frame.intrinsics;
   for (int r = 0; r < frame.depth_mm.rows; ++r)
     for (int c = 0; c < frame.depth_mm.cols; ++c) {
       const auto z = static_cast<double>(frame.depth_mm(r, c));
       if (!(z > 0)) continue;
-      const std::array<float, 3> point = {static_cast<float>((c - camera.cx) / camera.fx * z),
-                                          static_cast<float>((r - camera.cy) / camera.fy * z),
-                                          static_cast<float>(z)};
+      const cv::Point3f point = frame.intrinsics.point_mm(r, c, z);
       const cv::Vec3b bgr = frame.colour.empty() ? cv::Vec3b(160, 160, 160) : frame.colour(r, c);
       const std::array<std::uint8_t, 3> rgb = {bgr[2], bgr[1], bgr[0]};
-      append(bytes, point.data(), sizeof point);
+      append(bytes, &point, sizeof point);
       append(bytes, rgb.data(), sizeof rgb);
     }
   return bytes;

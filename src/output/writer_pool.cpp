@@ -2,19 +2,9 @@
 
 #include <utility>
 
+#include "core/raise_flag.hpp"
+
 namespace saccade {
-namespace {
-
-// Lets the threads that wait for `changed` see that they are to end.
-void raise_flag(bool& flag, std::mutex& mutex, std::condition_variable& changed) {
-  {
-    const std::lock_guard lock(mutex);
-    flag = true;
-  }
-  changed.notify_all();
-}
-
-}  // namespace
 
 WriterPool::WriterPool(int threads, std::function<void(const Result&)> write) : write_(std::move(write)) {
   try {

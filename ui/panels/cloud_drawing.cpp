@@ -135,8 +135,7 @@ void find_hidden(const OrbitCamera& camera, const Frame& frame, ImVec2 corner, c
     for (int c = 0; c < frame.depth_mm.cols; c += kEvery) {
       const auto z = static_cast<double>(frame.depth_mm(r, c));
       if (!(z > 0)) continue;
-      const cv::Point3d point((c - frame.intrinsics.cx) / frame.intrinsics.fx * z,
-                              (r - frame.intrinsics.cy) / frame.intrinsics.fy * z, z);
+      const cv::Point3d point = frame.intrinsics.point_mm(r, c, z);
       const auto at = camera.project(point, viewport);
       if (!at) continue;
       for (Marker& marker : markers) {

@@ -16,10 +16,9 @@ void ViewContext::notify(std::string line) {
 
 std::optional<cv::Point3d> ViewContext::point_at(std::optional<cv::Point> pixel) const {
   if (!result || !pixel || !cv::Rect({}, result->frame().size()).contains(*pixel)) return std::nullopt;
-  const Intrinsics& camera = result->frame().intrinsics;
   const auto z = static_cast<double>(result->frame().depth_mm(*pixel));
   if (!(z > 0)) return std::nullopt;
-  return cv::Point3d((pixel->x - camera.cx) / camera.fx * z, (pixel->y - camera.cy) / camera.fy * z, z);
+  return result->frame().intrinsics.point_mm(pixel->y, pixel->x, z);
 }
 
 namespace {
