@@ -60,6 +60,7 @@ std::string print_overlay(const S& s) {
 
 SettingOf<S> palette_setting(std::string_view key, const std::string& help, Palette& (*palette)(S&)) {
   std::vector<std::string> names;
+  names.reserve(std::size(kPalettes));
   for (const Palette p : kPalettes) names.emplace_back(to_string(p));
   return {key,
           "NAME",

@@ -40,6 +40,7 @@ std::vector<cv::Rect> object_boxes(const Attention& attention) {
     }
   }
   std::vector<cv::Rect> boxes;
+  boxes.reserve(extents.size());
   const cv::Rect whole({}, attention.masks.size());
   for (const Extent& e : extents)
     boxes.push_back(e.bottom < 0 ? cv::Rect()

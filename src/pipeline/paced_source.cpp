@@ -97,7 +97,7 @@ ReadResult PacedSource::read_recorded(Lock& lock, Frame& frame, Time deadline) {
     if (p.state_.paused && !going_) {
       // Only the controls end this.
     } else if (!has_ahead_) {
-      const ReadResult result = next_ < end_ ? fetch(lock) : turn_at_end();
+      ReadResult result = next_ < end_ ? fetch(lock) : turn_at_end();
       if (result.status == ReadStatus::frame) continue;
       if (result.status == ReadStatus::rejected) frame.index = ahead_.index;
       return result;

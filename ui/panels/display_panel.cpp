@@ -14,6 +14,7 @@ namespace {
 
 bool palette_combo(const char* id, Palette& palette) {
   std::vector<std::string> names;
+  names.reserve(std::size(kPalettes));
   for (const Palette p : kPalettes) names.emplace_back(to_string(p));
   std::string name(to_string(palette));
   if (!word_combo(id, names, name)) return false;
