@@ -123,6 +123,12 @@ std::vector<SettingOf<S>> overlay_setting_specs() {
                       [](S& s) -> Palette& { return s.overlay.depth.palette; }),
       range_setting("depth-range", "depth in mm of the first and the last of these colours, or auto",
                     [](S& s) -> std::optional<ValueRange>& { return s.overlay.depth.range_mm; }),
+      {"depth-percentile", "PERCENT",
+       "for depth-range auto: percent of the depths, 0..25, beyond each end of the range",
+       [](S& s, const std::string& text) {
+         s.overlay.depth.percentile = parse_number(text, 0.0, 25.0, "0..25");
+       },
+       [](const S& s) { return print_number(s.overlay.depth.percentile); }},
   };
 }
 
