@@ -127,6 +127,7 @@ void PacedSource::go_to_wanted() {
   going_ = true;
   p.going_to_ = index;
   p.rebase_ = true;
+  if (has_last_ && index != last_.index && index != last_.index + range_.every) jumped_ = true;
   if (has_ahead_ && ahead_.index == index) return;
   has_ahead_ = false;
   at_next_ = at_next_ && next_ == index;
@@ -139,6 +140,7 @@ void PacedSource::seek_unknown_end() {
   p.wanted_.reset();
   going_ = true;
   p.rebase_ = true;
+  jumped_ = true;
   has_ahead_ = false;
 }
 
@@ -194,6 +196,7 @@ ReadResult PacedSource::turn_at_end() {
   if (!any_usable_ && !part) return {ReadStatus::end, ""};
   if (p.state_.loop && !p.state_.paused && any_usable_) {
     any_usable_ = false;
+    jumped_ = true;
     next_ = nearest(p.state_.in.value_or(range_.start));
   } else {
     p.state_.paused = p.state_.at_end = true;
@@ -227,6 +230,7 @@ bool PacedSource::is_due(Time& when) {
 ReadResult PacedSource::give(Lock& lock, Frame& frame) {
   PlaybackControls& p = *playback_;
   std::swap(ahead_, last_);
+  if (std::exchange(jumped_, false)) p.jump_ = {p.jump_.count + 1, last_.index};
   has_ahead_ = going_ = false;
   has_last_ = true;
   last_due_ = p.rebase_ ? clock_->now() : due_;

@@ -96,4 +96,9 @@ PlaybackState PlaybackControls::state() const {
   return state_;
 }
 
+PlayJump PlaybackControls::last_jump() const {
+  const std::lock_guard lock(mutex_);
+  return jump_;
+}
+
 }  // namespace saccade

@@ -41,6 +41,13 @@ struct PlaybackState {
   std::optional<std::int64_t> in, out;  ///< first and last index of the part that is played; none = all
 };
 
+/// The last jump of a player: a frame was given that does not follow the one before it, after a seek or at
+/// the beginning of a loop.
+struct PlayJump {
+  std::int64_t count = 0;  ///< of all jumps so far
+  std::int64_t index = 0;  ///< of the first frame after the last one
+};
+
 /// The controls of a player; a PacedSource follows them. They outlast the source and keep their state, except
 /// for the position, when the next one is opened. Any thread may call any function.
 class PlaybackControls {
@@ -78,6 +85,7 @@ class PlaybackControls {
   void set_tap(std::function<void(const Frame&)> tap);
 
   PlaybackState state() const;
+  PlayJump last_jump() const;
 
  private:
   friend class PacedSource;
@@ -86,6 +94,7 @@ class PlaybackControls {
   std::condition_variable changed_;
   // All guarded by mutex_.
   PlaybackState state_;
+  PlayJump jump_;
   std::optional<std::int64_t> wanted_;  // index requested by step() or seek()
   std::optional<std::int64_t>
       going_to_;          // the last wanted_ that the source has accepted, until it gives a frame

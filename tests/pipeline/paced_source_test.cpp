@@ -285,5 +285,27 @@ TEST_F(PacedSourceTest, TheControlsWakeAWaitingReader) {
   EXPECT_EQ(next(), -1);
 }
 
+TEST_F(PacedSourceTest, JumpsAreCountedStepsAndDroppedFramesAreNot) {
+  open(10);
+  next(3);
+  EXPECT_EQ(playback_->last_jump().count, 0);
+  playback_->pause();
+  playback_->step(1);
+  EXPECT_EQ(next(), 3);
+  EXPECT_EQ(playback_->last_jump().count, 0) << "the next frame";
+  playback_->seek(7);
+  EXPECT_EQ(playback_->last_jump().count, 0) << "only when the frame comes";
+  EXPECT_EQ(next(), 7);
+  EXPECT_EQ(playback_->last_jump().count, 1);
+  EXPECT_EQ(playback_->last_jump().index, 7);
+  playback_->step(-1);
+  EXPECT_EQ(next(), 6);
+  EXPECT_EQ(playback_->last_jump().count, 2);
+  playback_->play();
+  EXPECT_EQ(next(5), (Indices{7, 8, 9, 0, 1}));
+  EXPECT_EQ(playback_->last_jump().count, 3) << "the loop";
+  EXPECT_EQ(playback_->last_jump().index, 0);
+}
+
 }  // namespace
 }  // namespace saccade
