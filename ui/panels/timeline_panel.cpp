@@ -56,7 +56,7 @@ void draw_ticks(const ViewContext& view, const Line& line) {
   }
 }
 
-// What is not played is covered; a bracket stands at each bound.
+// Covers the frames that are not played, and draws a bracket at each bound.
 void draw_part(const ViewContext& view, const Line& line) {
   const PlaybackState& playing = view.playback;
   ImDrawList& draw = *ImGui::GetWindowDrawList();
