@@ -7,7 +7,7 @@ namespace saccade {
 
 float confidence(const ConfidenceCues& cues) {
   constexpr float kBase = 0.1F, kPerRootOfFrontShare = 3.4F, kPerLogOfSaliency = 0.37F,
-                  kOnSupportingPlane = -2.4F, kWithoutSegment = 0.5F;
+                  kOnSupportingPlane = -2.4F, kWithoutSegment = 0.3F;
   constexpr float kLeastSaliency = 0.01F;  // below it a cell has next to no saliency, however little exactly
   const float log_odds =
       kBase + kPerRootOfFrontShare * std::sqrt(cues.front_share) +

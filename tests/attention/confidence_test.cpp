@@ -9,7 +9,7 @@ namespace {
 
 double formula(double front_share, double saliency, bool plane, bool without) {
   const double log_odds = 0.1 + 3.4 * std::sqrt(front_share) + 0.37 * std::log(std::max(0.01, saliency)) -
-                          (plane ? 2.4 : 0) + (without ? 0.5 : 0);
+                          (plane ? 2.4 : 0) + (without ? 0.3 : 0);
   return 1 / (1 + std::exp(-log_odds));
 }
 
