@@ -26,6 +26,10 @@ foreach(file libOpenNI2.so.0 OpenNI2/Drivers/libPS1080.so.0 OpenNI2/Drivers/libP
   install(FILES ${SACCADE_REDIST}/${file} DESTINATION ${SACCADE_REDIST_INSTALLED}/${folder})
 endforeach()
 
+file(STRINGS ${OPENNI2_INCLUDE_DIR}/OniVersion.h openni2_numbers REGEX "define ONI_VERSION_(MAJOR|MINOR|MAINTENANCE|BUILD)\t")
+list(TRANSFORM openni2_numbers REPLACE ".*\t([0-9]+).*" "\\1")
+list(JOIN openni2_numbers "." OPENNI2_VERSION)
+
 # saccade_driver_module(NAME SOURCES file... LINK target...): the OpenNI2 driver module libNAME.so.0.
 add_custom_target(saccade_driver_modules)
 function(saccade_driver_module name)
@@ -57,9 +61,9 @@ function(saccade_use_sensors target)
     set_target_properties(${target} PROPERTIES BUILD_RPATH ${SACCADE_REDIST})
     return()
   endif()
-  # One RUNPATH for the build tree and for the installed program. Where they differ, CMake ends that of the build tree
-  # with an empty entry, and there the loader looks in the working directory.
+  # Where the RUNPATH of the build tree is shorter than the installed one, CMake ends it with an empty entry, and there
+  # the loader looks in the working directory. So that of the build tree has the installed one as well.
   file(RELATIVE_PATH installed ${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_FULL_LIBDIR}/saccade/openni2)
   set_target_properties(${target} PROPERTIES
-    BUILD_WITH_INSTALL_RPATH ON INSTALL_RPATH "$ORIGIN/openni2;$ORIGIN/${installed}")
+    BUILD_RPATH "$ORIGIN/openni2;$ORIGIN/${installed}" INSTALL_RPATH "$ORIGIN/${installed}")
 endfunction()

@@ -10,16 +10,8 @@
 #include <spdlog/spdlog.h>
 #include <CLI/CLI.hpp>
 
-#include "app/bench_command.hpp"
-#include "app/devices_command.hpp"
-#include "app/doctor_command.hpp"
-#include "app/eval_command.hpp"
-#include "app/oni_command.hpp"
-#include "app/record_command.hpp"
-#include "app/run_command.hpp"
-#include "app/view_command.hpp"
+#include "app/commands.hpp"
 #include "core/error.hpp"
-#include "core/version.hpp"
 
 namespace {
 
@@ -34,27 +26,18 @@ int run_program(int argc, char** argv) {
   spdlog::set_default_logger(spdlog::stderr_color_mt("saccade"));
   spdlog::set_pattern("%n: %l: %v");
 
-  CLI::App app{"Saccade: saliency and attention points of RGB-D images by local 3D symmetry"};
-  app.set_version_flag("--version", std::string("saccade ") + saccade::kVersion);
-  app.require_subcommand(1);
+  CLI::App app;
   std::function<void()> action;
-
-  saccade::add_view_command(app, action);
-  saccade::add_run_command(app, action, {argv, argv + argc});
-  saccade::add_record_command(app, action);
-  saccade::add_devices_command(app, action);
-  saccade::add_doctor_command(app, action);
-  saccade::add_eval_command(app, action);
-  saccade::add_oni_command(app, action);
-  saccade::add_bench_command(app, action);
+  saccade::add_commands(app, action, {argv, argv + argc});
 
   try {
     app.parse(argc, argv);
-  } catch (const CLI::Success& success) {  // --help, --version
+  } catch (const CLI::Success& success) {  // --help
     return app.exit(success);
   } catch (const CLI::ParseError& error) {
     return report(std::string(error.what()) + " (see saccade --help)", ExitStatus::usage);
   }
+  if (!action) return report("no command (see saccade --help)", ExitStatus::usage);
   action();
   return static_cast<int>(ExitStatus::done);
 }

@@ -8,13 +8,13 @@
 
 #include "core/error.hpp"
 #include "core/version.hpp"
+#include "eval/evaluation_format.hpp"
 
 namespace saccade {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr int kFormat = 3;  // of results.jsonl
 constexpr int kMostShards = 100'000;
 
 // Reads each word of the list with the setting's own parser; `take` gets the settings that hold it.
@@ -92,10 +92,10 @@ Json plan_json(const EvalPlan& plan) {
   for (const SettingSpec& spec : setting_specs())
     if (is_kept(spec)) settings[std::string(spec.key)] = spec.print(plan.settings);
   for (const Selector selector : plan.selectors) selectors.push_back(to_string(selector));
-  return {{"format", kFormat},        {"version", kVersion},   {"dataset", plan.dataset},
-          {"frames", plan.positions}, {"models", plan.models}, {"kernels", plan.kernels},
-          {"selectors", selectors},   {"points", plan.points}, {"settings", settings},
-          {"shard", plan.shard},      {"shards", plan.shards}};
+  return {{"format", kEvaluationFormat}, {"version", kVersion},   {"dataset", plan.dataset},
+          {"frames", plan.positions},    {"models", plan.models}, {"kernels", plan.kernels},
+          {"selectors", selectors},      {"points", plan.points}, {"settings", settings},
+          {"shard", plan.shard},         {"shards", plan.shards}};
 }
 
 std::string dump(const Json& json, int indent) {
@@ -103,7 +103,8 @@ std::string dump(const Json& json, int indent) {
 }
 
 EvalPlan plan_from_json(const Json& json) {
-  if (json.at("format") != kFormat) throw usage_error("results of another version", "", "evaluate again");
+  if (json.at("format") != kEvaluationFormat)
+    throw usage_error("results of another version", "", "evaluate again");
   EvalPlan plan;
   plan.dataset = json.at("dataset");
   plan.positions = json.at("frames");
