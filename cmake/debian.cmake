@@ -33,7 +33,8 @@ if(SACCADE_PYTHON)
     ", python3 (>= 3.${Python_VERSION_MINOR}), python3 (<< 3.${next_python}), python3-numpy")
 endif()
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS "libopencv-dev, libeigen3-dev, libfmt-dev, libhwy-dev, libturbojpeg0-dev, \
-libspng-dev, libdeflate-dev, libhdf5-dev, libopenni2-dev")
+libspng-dev, libdeflate-dev, libavformat-dev, libavcodec-dev, \
+libavutil-dev, libhdf5-dev, libopenni2-dev")
 
 set(CPACK_PRE_BUILD_SCRIPTS ${CMAKE_CURRENT_LIST_DIR}/debian_files.cmake)
 set(CPACK_SACCADE_DATE ${changelog_date})

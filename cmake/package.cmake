@@ -1,9 +1,9 @@
-# The installed C++ library: find_package(Saccade) gives saccade::saliency, saccade::models, saccade::attention and
-# saccade::sources. src/README.md shows its use.
+# The installed C++ library: find_package(Saccade) gives saccade::saliency, saccade::models, saccade::attention,
+# saccade::tracking and saccade::sources. src/README.md shows its use.
 include(CMakePackageConfigHelpers)
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/Saccade)
 
-set(package_targets opencv core saliency_simd saliency models attention scene oni openni2 sources)
+set(package_targets opencv core saliency_simd saliency models attention tracking scene oni openni2 sources)
 list(TRANSFORM package_targets PREPEND saccade_)
 install(TARGETS ${package_targets} EXPORT SaccadeTargets INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(EXPORT SaccadeTargets NAMESPACE saccade:: DESTINATION ${package_folder})
@@ -19,11 +19,16 @@ install(FILES ${PROJECT_BINARY_DIR}/package/SaccadeConfig.cmake ${PROJECT_BINARY
 # of the room, "core/frame.hpp"; in an installed header that becomes "saccade/core/frame.hpp", so that a user's own
 # folder core/ is never in the way.
 set(public_headers
-  core/error.hpp core/frame.hpp core/frame_source.hpp core/intrinsics.hpp core/sensor_controls.hpp
+  core/background_job.hpp core/error.hpp core/frame.hpp core/frame_source.hpp core/intrinsics.hpp core/sensor_controls.hpp
   core/sensor_settings.hpp core/setting.hpp core/stage_times.hpp core/version.hpp core/worker_pool.hpp
   saliency/params.hpp saliency/probe.hpp saliency/reference.hpp saliency/symmetry3d.hpp
   models/model.hpp models/model_settings.hpp
-  attention/attention.hpp attention/attention_settings.hpp attention/confidence.hpp
+  attention/attention.hpp attention/attention_settings.hpp attention/border_ownership.hpp attention/cell_competition.hpp
+  attention/confidence.hpp attention/frame_surfaces.hpp attention/plane_search.hpp attention/proto_objects.hpp
+  attention/surface_grid.hpp attention/surface_segments.hpp
+  tracking/attention_order.hpp tracking/attention_tracker.hpp tracking/camera_motion.hpp tracking/frame_follower.hpp
+  tracking/gaze.hpp tracking/object_memory.hpp tracking/object_shapes.hpp tracking/surface_memory.hpp
+  tracking/tracked_object.hpp tracking/tracking_settings.hpp
   sources/open_source.hpp)
 foreach(header IN LISTS public_headers)
   cmake_path(GET header PARENT_PATH room)

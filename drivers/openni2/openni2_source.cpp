@@ -32,7 +32,7 @@ OpenNi2Source::OpenNi2Source(const std::string& uri, const SensorSettings& setti
   const SensorMode mode = settings.mode.value_or(SensorMode{});
   info_.uri = uri;
   info_.kind = kScheme;
-  info_.live = true;
+  info_.live = info_.sequence = true;
   info_.size = {mode.width, mode.height};
   info_.rate_hz = mode.rate_hz;
   info_.intrinsics = Intrinsics::guess_for(info_.size);

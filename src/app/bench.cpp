@@ -2,14 +2,15 @@
 
 #include <array>
 #include <chrono>
-#include <cstdio>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <opencv2/core.hpp>
 
+#include "app/standard_output.hpp"
 #include "core/error.hpp"
 #include "pipeline/processor.hpp"
 #include "pipeline/stage_statistics.hpp"
@@ -57,7 +58,7 @@ Measurement measure(const SensorSize& sensor, const Settings& settings, double s
   constexpr int kLeastFrames = 5;
   Measurement measurement;
   measurement.sensor = sensor;
-  const auto processor = make_processor({settings, settings, {}, worker_count(settings)});
+  const auto processor = make_processor({settings, settings, {}, {}, worker_count(settings)});
   Result result;
   result.frame = table_frame(sensor.size);
   measurement.valid = static_cast<double>(cv::countNonZero(result.frame.depth_mm)) / sensor.size.area();
@@ -99,18 +100,19 @@ nlohmann::ordered_json as_json(const Measurement& m) {
   return json;
 }
 
-void print(const Measurement& m) {
+std::string to_text(const Measurement& m) {
   std::string modes;
   for (const int rate : m.sensor.rates_hz)
     modes += fmt::format("{}{} Hz {}", modes.empty() ? "" : ", ", rate, sustains(m, rate) ? "yes" : "no");
-  fmt::print("{:>4}x{:<4}  {:7.0f}  {:8.2f}  {:9.2f}  {:8.2f}  {:8.1f}   {}\n", m.sensor.size.width,
-             m.sensor.size.height, 100 * m.valid, map_ms(m), m.stages[Stage::attention].percentile_ms(0.5),
-             m.frame.percentile_ms(0.95), 1000 / m.frame.percentile_ms(0.5), modes);
+  std::string text = fmt::format("{:>4}x{:<4}  {:7.0f}  {:8.2f}  {:9.2f}  {:8.2f}  {:8.1f}   {}\n",
+                                 m.sensor.size.width, m.sensor.size.height, 100 * m.valid, map_ms(m),
+                                 m.stages[Stage::attention].percentile_ms(0.5), m.frame.percentile_ms(0.95),
+                                 1000 / m.frame.percentile_ms(0.5), modes);
   if (m.reference_ms > 0)
-    fmt::print(
+    text += fmt::format(
         "           the map is {:.0f} times faster than the reference, one thread, scalar ({:.0f} ms)\n",
         m.reference_ms / map_ms(m), m.reference_ms);
-  std::fflush(stdout);
+  return text;
 }
 
 }  // namespace
@@ -122,11 +124,11 @@ void bench(const Settings& settings, double seconds) {
   const cv::Size largest = kSensorSizes.back().size;
   check_levels(largest, settings);
   if (!settings.json)
-    fmt::print(
-        "{}, k = {}, levels {}..{}, {} worker{}, {}\n"
-        "     size  valid %    map ms  points ms    p95 ms  frames/s   sustains\n",
-        settings.model, settings.kernel, settings.first_level, settings.last_level, workers,
-        workers == 1 ? "" : "s", instructions);
+    print_text(
+        fmt::format("{}, k = {}, levels {}..{}, {} worker{}, {}\n"
+                    "     size  valid %    map ms  points ms    p95 ms  frames/s   sustains\n",
+                    settings.model, settings.kernel, settings.first_level, settings.last_level, workers,
+                    workers == 1 ? "" : "s", instructions));
   nlohmann::ordered_json json = {{"model", settings.model},
                                  {"kernel", settings.kernel},
                                  {"workers", workers},
@@ -139,9 +141,9 @@ void bench(const Settings& settings, double seconds) {
     if (settings.json)
       json["sizes"].push_back(as_json(measurement));
     else
-      print(measurement);
+      print_text(to_text(measurement));
   }
-  if (settings.json) fmt::print("{}\n", json.dump());
+  if (settings.json) print_json(json);
 }
 
 }  // namespace saccade

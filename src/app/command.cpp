@@ -19,8 +19,10 @@ void report_notes(const SourceInfo& source, const Settings& settings) {
   for (const std::string& note : source.notes) spdlog::warn("{}: {}", source.uri, note);
   const Intrinsics& camera = source.intrinsics;
   if (!settings.intrinsics && source.has_depth && camera.origin == IntrinsicsOrigin::guess)
-    spdlog::warn("{}: no calibration, guessing fx={} fy={} cx={} cy={} (specify --intrinsics fx,fy,cx,cy)",
-                 source.uri, camera.fx, camera.fy, camera.cx, camera.cy);
+    spdlog::warn(
+        "{}: no calibration, guessing fx={:.6g} fy={:.6g} cx={:.6g} cy={:.6g} (specify --intrinsics "
+        "fx,fy,cx,cy)",
+        source.uri, camera.fx, camera.fy, camera.cx, camera.cy);
 }
 
 void report_state(const SourceState& state) {
@@ -59,9 +61,11 @@ void fit_to_depth(Settings& settings, SourceInfo& source) {
 }
 
 void make_output_folder(const fs::path& folder) {
+  if (folder == "-")
+    throw usage_error("the files of a run cannot go to standard output", "--out -", "name a folder");
   std::error_code code;
   fs::create_directories(folder, code);
-  if (code || !fs::is_directory(folder))
+  if (code || !fs::is_directory(folder, code))
     throw failed("cannot make the output folder" + (code ? ": " + code.message() : std::string()),
                  folder.string(), "choose a writable folder with --out");
 }

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "app/standard_output.hpp"
 #include "drivers/openni2/openni2_devices.hpp"
 
 namespace saccade {
@@ -39,10 +40,11 @@ Json to_json(const DeviceListing& device) {
   return json;
 }
 
-void print(const DeviceListing& device) {
-  fmt::print("{} {}\n  source  {}\n", device.identity.vendor, device.identity.name, device.source);
-  const auto line = [](const char* what, const std::string& text) {
-    if (!text.empty()) fmt::print("  {:<7} {}\n", what, text);
+std::string to_text(const DeviceListing& device) {
+  std::string lines =
+      fmt::format("{} {}\n  source  {}\n", device.identity.vendor, device.identity.name, device.source);
+  const auto line = [&](const char* what, const std::string& text) {
+    if (!text.empty()) lines += fmt::format("  {:<7} {}\n", what, text);
   };
   line("driver", device.driver);
   line("USB", usb_id(device.identity));
@@ -50,6 +52,7 @@ void print(const DeviceListing& device) {
   line("depth", fmt::format("{}", fmt::join(texts_of(device.depth_modes), ", ")));
   line("colour", fmt::format("{}", fmt::join(texts_of(device.colour_modes), ", ")));
   line("problem", device.problem);
+  return lines;
 }
 
 }  // namespace
@@ -60,11 +63,11 @@ void devices(bool json) {
   if (json) {
     Json array = Json::array();
     for (const DeviceListing& device : list) array.push_back(to_json(device));
-    fmt::print("{}\n", Json{{"devices", array}}.dump(2));
+    print_json(Json{{"devices", array}}, 2);
     return;
   }
-  if (list.empty()) fmt::print("no sensor is connected; to find the reason, run saccade doctor\n");
-  for (const DeviceListing& device : list) print(device);
+  if (list.empty()) print_text("no sensor is connected; to find the reason, run saccade doctor\n");
+  for (const DeviceListing& device : list) print_text(to_text(device));
 }
 
 void add_devices_command(CLI::App& app, std::function<void()>& action) {

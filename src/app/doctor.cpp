@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "core/error.hpp"
+
 namespace saccade {
 namespace {
 
@@ -97,6 +99,18 @@ bool has(const std::vector<UsbSensor>& sensors, Part part) {
 }
 
 }  // namespace
+
+Examination examine(const std::string& sysfs) {
+  Examination found;
+  found.openni2 = find_openni2();
+  found.usb = find_usb_sensors(sysfs);
+  try {
+    found.devices = list_devices();
+  } catch (const Error& error) {
+    found.openni2_error = error.what();
+  }
+  return found;
+}
 
 std::vector<Problem> diagnose(const Examination& found) {
   std::vector<Problem> problems;

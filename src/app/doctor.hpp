@@ -23,6 +23,9 @@ struct Examination {
   std::string openni2_error;           ///< reason why it does not start; empty = it starts
 };
 
+/// Looks at this machine, with its sysfs in that folder ("/sys").
+[[nodiscard]] Examination examine(const std::string& sysfs);
+
 /// The problems in their order of importance; empty if a sensor is ready for use.
 [[nodiscard]] std::vector<Problem> diagnose(const Examination& found);
 

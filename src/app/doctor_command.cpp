@@ -1,29 +1,20 @@
 #include "app/doctor_command.hpp"
 
+#include <iterator>
 #include <memory>
+#include <string>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "app/doctor.hpp"
+#include "app/standard_output.hpp"
 #include "core/error.hpp"
 
 namespace saccade {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-Examination examine(const std::string& sysfs) {
-  Examination found;
-  found.openni2 = find_openni2();
-  found.usb = find_usb_sensors(sysfs);
-  try {
-    found.devices = list_devices();
-  } catch (const Error& error) {
-    found.openni2_error = error.what();
-  }
-  return found;
-}
 
 const char* to_text(UsbSensor::Access access) {
   switch (access) {
@@ -76,26 +67,30 @@ Json to_json(const Examination& found, const std::vector<Problem>& problems) {
           {"problems", list}};
 }
 
-void print(const Examination& found, const std::vector<Problem>& problems) {
+std::string to_text(const Examination& found, const std::vector<Problem>& problems) {
+  std::string text;
+  const auto add = std::back_inserter(text);
   if (found.openni2.in_this_build) {
-    fmt::print("OpenNI2   {} ({})\n", found.openni2.version, found.openni2.library.string());
-    fmt::print("drivers   in {}\n", found.openni2.driver_folder.string());
+    fmt::format_to(add, "OpenNI2   {} ({})\n", found.openni2.version, found.openni2.library.string());
+    fmt::format_to(add, "drivers   in {}\n", found.openni2.driver_folder.string());
   } else {
-    fmt::print("OpenNI2   not in this build\n");
+    fmt::format_to(add, "OpenNI2   not in this build\n");
   }
   for (const auto& module : found.openni2.modules)
-    fmt::print("          {}{}\n", module.name, module.problem.empty() ? "" : ": " + module.problem);
-  if (found.usb.empty()) fmt::print("USB       no sensor\n");
+    fmt::format_to(add, "          {}{}\n", module.name, module.problem.empty() ? "" : ": " + module.problem);
+  if (found.usb.empty()) fmt::format_to(add, "USB       no sensor\n");
   for (const UsbSensor& sensor : found.usb)
-    fmt::print("USB       {} {:04x}:{:04x}, port {}, {}, {} {}: {}; udev rule: {}\n", sensor.kind.name,
-               sensor.kind.vendor, sensor.product, sensor.place,
-               sensor.speed_mbps > 0 ? fmt::format("{:g} Mb/s", sensor.speed_mbps) : "speed unknown",
-               sensor.node.string(), sensor.mode, to_text(sensor.access),
-               sensor.rule.empty() ? "none" : sensor.rule.string());
+    fmt::format_to(add, "USB       {} {:04x}:{:04x}, port {}, {}, {} {}: {}; udev rule: {}\n",
+                   sensor.kind.name, sensor.kind.vendor, sensor.product, sensor.place,
+                   sensor.speed_mbps > 0 ? fmt::format("{:g} Mb/s", sensor.speed_mbps) : "speed unknown",
+                   sensor.node.string(), sensor.mode, to_text(sensor.access),
+                   sensor.rule.empty() ? "none" : sensor.rule.string());
   for (const DeviceListing& device : found.devices)
-    fmt::print("sensor    {} {}: {}\n", device.identity.vendor, device.identity.name, device.source);
-  for (const Problem& problem : problems) fmt::print("PROBLEM   {} -> {}\n", problem.what, problem.remedy);
-  if (problems.empty()) fmt::print("no problems: try saccade view openni2\n");
+    fmt::format_to(add, "sensor    {} {}: {}\n", device.identity.vendor, device.identity.name, device.source);
+  for (const Problem& problem : problems)
+    fmt::format_to(add, "PROBLEM   {} -> {}\n", problem.what, problem.remedy);
+  if (problems.empty()) fmt::format_to(add, "no problems: try saccade view openni2\n");
+  return text;
 }
 
 }  // namespace
@@ -104,9 +99,9 @@ void doctor(const DoctorArguments& arguments) {
   const Examination found = examine(arguments.sysfs);
   const auto problems = diagnose(found);
   if (arguments.json)
-    fmt::print("{}\n", to_json(found, problems).dump(2));
+    print_json(to_json(found, problems), 2);
   else
-    print(found, problems);
+    print_text(to_text(found, problems));
 }
 
 void add_doctor_command(CLI::App& app, std::function<void()>& action) {

@@ -1,7 +1,6 @@
 #include "app/eval.hpp"
 
 #include <algorithm>
-#include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -14,8 +13,10 @@
 #include "app/evaluation.hpp"
 #include "app/interrupt.hpp"
 #include "app/progress.hpp"
+#include "app/standard_output.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
+#include "core/folder_lock.hpp"
 #include "core/png.hpp"
 #include "eval/contact_sheet.hpp"
 #include "eval/figure.hpp"
@@ -23,6 +24,7 @@
 #include "eval/reliability_figure.hpp"
 #include "eval/report.hpp"
 #include "eval/result_file.hpp"
+#include "output/json_text.hpp"
 #include "pipeline/processor.hpp"
 #include "sources/open_source.hpp"
 
@@ -48,7 +50,8 @@ EvalPlan make_plan(const EvalArguments& arguments, const Settings& settings, con
   EvalPlan plan;
   plan.dataset = arguments.dataset;
   plan.settings = settings;
-  plan.points = arguments.points;
+  constexpr int kUsualPoints = 30;
+  plan.points = arguments.points.value_or(kUsualPoints);
   plan.positions = count_frames(source, settings);
   parse_lists(plan, arguments.models, arguments.kernels, arguments.selectors);
   parse_shard(plan, arguments.shard);
@@ -104,18 +107,29 @@ void write_report(const StoredResults& results, FrameSource* source, const fs::p
              page_html(plan, results.images, statistics, {svg, reliability_svg}, examples));
   write_file(out / "report.json", dump(report_json(plan, results.images, statistics), 2) + "\n");
   if (settings.json)
-    fmt::print("{}\n", dump(summary_json(results, statistics, out.string())));
+    print_json(summary_json(results, statistics, out.string()));
   else if (!settings.quiet)
-    fmt::print("{}{} images; see {}\n", report_text(plan, statistics), statistics.images,
-               (out / "index.html").string());
-  if (std::fflush(stdout) != 0) throw failed("cannot write", "standard output", "is the disk full?");
+    print_text(fmt::format("{}{} image{}; see {}\n", report_text(plan, statistics), statistics.images,
+                           statistics.images == 1 ? "" : "s", (out / "index.html").string()));
+}
+
+// The data set that results name, for the examples; nullptr, with a warning, if it cannot be opened. The
+// results may be those of somebody else: no device is opened.
+std::unique_ptr<FrameSource> open_data_set(const std::string& uri) {
+  try {
+    if (names_device(uri)) throw unreadable("it is a device", uri, "");
+    return open_source(uri);
+  } catch (const Error& error) {
+    spdlog::warn("no pictures of examples: {}", error.what());
+    return nullptr;
+  }
 }
 
 }  // namespace
 
 void eval(const EvalArguments& arguments, const Settings& settings) {
   cv::setNumThreads(1);  // OpenCV must not start threads besides ours
-  const Interrupt interrupt;
+  Interrupt interrupt;
   const auto source = open_source(arguments.dataset);
   SourceInfo info = source->info();
   Settings fitting = settings;
@@ -126,6 +140,8 @@ void eval(const EvalArguments& arguments, const Settings& settings) {
   Evaluation evaluation(plan, *source, pool);
   const fs::path out = arguments.out;
   make_output_folder(out);
+  const FolderLock lock(out, "saccade eval");
+  const Interrupt::Handler handler(interrupt, {});
   StoredResults results = resume_results(out, plan);
   const auto before = static_cast<std::int64_t>(results.images.size());
   if (before > 0) spdlog::info("{}: {} images are evaluated already", out.string(), before);
@@ -144,16 +160,13 @@ void eval(const EvalArguments& arguments, const Settings& settings) {
 
 void eval_merge(const EvalArguments& arguments, const Settings& settings) {
   cv::setNumThreads(1);
-  const Interrupt interrupt;
+  Interrupt interrupt;
   const StoredResults results = merge_results({arguments.merge.begin(), arguments.merge.end()});
-  std::unique_ptr<FrameSource> source;
-  try {
-    source = open_source(results.plan.dataset);
-  } catch (const Error& error) {
-    spdlog::warn("no pictures of examples: {}", error.what());
-  }
+  const auto source = open_data_set(results.plan.dataset);
   const fs::path out = arguments.out;
   make_output_folder(out);
+  const FolderLock lock(out, "saccade eval --merge");
+  const Interrupt::Handler handler(interrupt, {});
   write_results(out, results);
   WorkerPool pool(worker_count(settings));
   write_report(results, source.get(), out, settings, pool, interrupt);

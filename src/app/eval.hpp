@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,7 +12,8 @@ struct EvalArguments {
   std::string dataset;                     ///< as open_source() takes it; its frames need labels
   std::string out;                         ///< folder, made if it does not exist
   std::string models, kernels, selectors;  ///< lists "a,b"; empty = the one of the settings
-  int points = 30;                         ///< n goes from 1 to this, 1..1000
+  std::optional<int> points;               ///< n goes from 1 to this, 1..1000; none = 30, over time 10
+  bool over_time = false;                  ///< eval_over_time() instead of eval()
   std::string shard = "1/1";
   std::vector<std::string> merge;  ///< folders of shards; then there is no data set
 };

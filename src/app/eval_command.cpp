@@ -4,6 +4,7 @@
 
 #include "app/command.hpp"
 #include "app/eval.hpp"
+#include "app/eval_over_time.hpp"
 #include "app/options.hpp"
 #include "app/source_option.hpp"
 #include "core/error.hpp"
@@ -35,9 +36,12 @@ void add_eval_command(CLI::App& app, std::function<void()>& action) {
       ->type_name("LIST");
   command.add_option("--selectors", a.selectors, "selectors to compare [that of the settings]")
       ->type_name("LIST");
-  command.add_option("--points", a.points, "attention points per image, 1..1000 [30]")
+  command.add_option("--points", a.points, "attention points per image, 1..1000 [30; with --over-time 10]")
       ->type_name("N")
       ->check(CLI::Range(1, kMostPoints));
+  command.add_flag("--over-time", a.over_time,
+                   "measure how attention holds over time instead, on a sequence with camera poses or with "
+                   "labels that keep their identity");
   command
       .add_option("--shard", a.shard,
                   "evaluate every n-th image only, from the i-th; combine the shards with --merge [1/1]")
@@ -49,7 +53,9 @@ void add_eval_command(CLI::App& app, std::function<void()>& action) {
     action = [state] {
       const Settings settings = state->options.resolve();
       set_log_level(settings);
-      if (!state->arguments.merge.empty())
+      if (state->arguments.over_time && !state->arguments.dataset.empty())
+        eval_over_time(state->arguments, settings);
+      else if (!state->arguments.merge.empty())
         eval_merge(state->arguments, settings);
       else if (!state->arguments.dataset.empty())
         eval(state->arguments, settings);

@@ -1,13 +1,15 @@
 #include "app/oni_command.hpp"
 
-#include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <string>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "app/standard_output.hpp"
 #include "core/error.hpp"
+#include "core/text.hpp"
 #include "oni/check.hpp"
 #include "oni/info.hpp"
 #include "oni/repair.hpp"
@@ -16,13 +18,6 @@ namespace saccade {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-// Names in a damaged file may hold any bytes, which JSON and terminals do not accept.
-std::string printable(std::string text) {
-  for (char& c : text)
-    if (c < 32 || c > 126) c = '?';
-  return text;
-}
 
 Json stream_json(const OniStreamInfo& stream) {
   Json json = {{"type", to_string(stream.type)},
@@ -57,27 +52,22 @@ Json stream_json(const OniStreamInfo& stream) {
   return json;
 }
 
-void print_stream(const OniStreamInfo& stream) {
-  fmt::print("  {:<6} {:<4} {} x {}, {}, {} frame{}, {:.2f} s", to_string(stream.type),
-             to_string(stream.codec), stream.size.width, stream.size.height,
-             stream.unusable ? "unusable: " + *stream.unusable : stream.pixels, stream.frames,
-             stream.frames == 1 ? "" : "s", stream.duration_s());
-  if (stream.measured_rate_hz > 0) fmt::print(", {:.2f}/s", stream.measured_rate_hz);
-  if (stream.nominal_rate_hz > 0) fmt::print(" (nominal {:g})", stream.nominal_rate_hz);
+std::string to_text(const OniStreamInfo& stream) {
+  std::string text = fmt::format("  {:<6} {:<4} {} x {}, {}, {} frame{}, {:.2f} s", to_string(stream.type),
+                                 to_string(stream.codec), stream.size.width, stream.size.height,
+                                 stream.unusable ? "unusable: " + *stream.unusable : stream.pixels,
+                                 stream.frames, stream.frames == 1 ? "" : "s", stream.duration_s());
+  if (stream.measured_rate_hz > 0) text += fmt::format(", {:.2f}/s", stream.measured_rate_hz);
+  if (stream.nominal_rate_hz > 0) text += fmt::format(" (nominal {:g})", stream.nominal_rate_hz);
   if (stream.gaps > 0)
-    fmt::print(", {} gap{} up to {:.3f} s", stream.gaps, stream.gaps == 1 ? "" : "s",
-               static_cast<double>(stream.largest_gap_us) / 1e6);
-  if (stream.dropped > 0) fmt::print(", {} dropped while recording", stream.dropped);
+    text += fmt::format(", {} gap{} up to {:.3f} s", stream.gaps, stream.gaps == 1 ? "" : "s",
+                        static_cast<double>(stream.largest_gap_us) / 1e6);
+  if (stream.dropped > 0) text += fmt::format(", {} dropped while recording", stream.dropped);
   if (stream.intrinsics)
-    fmt::print(", fx {:.2f} fy {:.2f} cx {:.2f} cy {:.2f} ({})", stream.intrinsics->fx, stream.intrinsics->fy,
-               stream.intrinsics->cx, stream.intrinsics->cy, to_string(stream.intrinsics->origin));
-  fmt::print("\n");
-}
-
-// Throws if the output was not written, for example on a full disk.
-void flush_output() {
-  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
-    throw failed("cannot write", "standard output", "is the disk full?");
+    text += fmt::format(", fx {:.2f} fy {:.2f} cx {:.2f} cy {:.2f} ({})", stream.intrinsics->fx,
+                        stream.intrinsics->fy, stream.intrinsics->cx, stream.intrinsics->cy,
+                        to_string(stream.intrinsics->origin));
+  return text + "\n";
 }
 
 }  // namespace
@@ -89,14 +79,15 @@ void oni_info(const std::string& file, bool json) {
                 {"closed", info.closed}, {"lost_bytes", info.lost_bytes}, {"errors", info.errors}};
     out["streams"] = Json::array();
     for (const OniStreamInfo& stream : info.streams) out["streams"].push_back(stream_json(stream));
-    fmt::print("{}\n", out.dump(-1, ' ', false, Json::error_handler_t::replace));
+    print_json(out);
   } else {
-    fmt::print("{}: {} bytes, version {}{}{}\n", file, info.size_bytes, info.version,
-               info.closed ? "" : ", not closed",
-               info.errors > 0 ? fmt::format(", {} problems (see oni check)", info.errors) : "");
-    for (const OniStreamInfo& stream : info.streams) print_stream(stream);
+    std::string text =
+        fmt::format("{}: {} bytes, version {}{}{}\n", file, info.size_bytes, info.version,
+                    info.closed ? "" : ", not closed",
+                    info.errors > 0 ? fmt::format(", {} problems (see oni check)", info.errors) : "");
+    for (const OniStreamInfo& stream : info.streams) text += to_text(stream);
+    print_text(text);
   }
-  flush_output();
 }
 
 void oni_check(const std::string& file, bool json) {
@@ -113,14 +104,15 @@ void oni_check(const std::string& file, bool json) {
       out["problems"].push_back({{"position", problem.position},
                                  {"severity", to_string(problem.severity)},
                                  {"meaning", printable(problem.meaning)}});
-    fmt::print("{}\n", out.dump(-1, ' ', false, Json::error_handler_t::replace));
+    print_json(out);
   } else {
+    std::string text;
     for (const OniProblem& problem : problems.list())
-      fmt::print("{:>12}  {:<7}  {}\n", problem.position, to_string(problem.severity),
-                 printable(problem.meaning));
-    if (sound) fmt::print("{}: sound\n", file);
+      text += fmt::format("{:>12}  {:<7}  {}\n", problem.position, to_string(problem.severity),
+                          printable(problem.meaning));
+    if (sound) text += fmt::format("{}: sound\n", file);
+    print_text(text);
   }
-  flush_output();
   if (!sound)
     throw unreadable(fmt::format("the recording is not sound, {} errors", problems.count(OniSeverity::error)),
                      file, "saccade oni repair saves the good frames");
@@ -137,13 +129,14 @@ void oni_repair(const std::string& file, const std::string& name, bool force, bo
                       {"bad_frames", report.bad_frames},
                       {"lost_bytes", report.lost_bytes},
                       {"notes", report.notes}};
-    fmt::print("{}\n", out.dump(-1, ' ', false, Json::error_handler_t::replace));
+    print_json(out);
   } else {
-    for (const std::string& note : report.notes) fmt::print("{}\n", note);
-    fmt::print("{}: {} frames saved, {} bad frames left out, {} bytes outside records skipped\n", to,
-               report.frames, report.bad_frames, report.lost_bytes);
+    std::string text;
+    for (const std::string& note : report.notes) text += printable(note) + "\n";
+    text += fmt::format("{}: {} frames saved, {} bad frames left out, {} bytes outside records skipped\n", to,
+                        report.frames, report.bad_frames, report.lost_bytes);
+    print_text(text);
   }
-  flush_output();
 }
 
 void add_oni_command(CLI::App& app, std::function<void()>& action) {

@@ -4,11 +4,18 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
+#include <string_view>
 
 #include <fmt/format.h>
 
 namespace saccade {
 namespace {
+
+bool can_overwrite_lines() {
+  const char* terminal = std::getenv("TERM");
+  return ::isatty(STDERR_FILENO) == 1 && terminal != nullptr && std::string_view(terminal) != "dumb";
+}
 
 std::string bar(double share) {
   constexpr int kWidth = 24;
@@ -35,7 +42,7 @@ std::string live_text(const Ledger& ledger, const DurationHistogram& latency) {
 }
 
 Progress::Progress(bool wanted, std::optional<std::int64_t> total)
-    : shown_(wanted && ::isatty(STDERR_FILENO) == 1), total_(total) {}
+    : shown_(wanted && can_overwrite_lines()), total_(total) {}
 
 void Progress::clear() const {
   if (shown_) fmt::print(stderr, "\r\033[K");

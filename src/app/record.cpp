@@ -1,7 +1,6 @@
 #include "app/record.hpp"
 
 #include <chrono>
-#include <cstdio>
 #include <exception>
 #include <filesystem>
 
@@ -14,10 +13,13 @@
 #include "app/interrupt.hpp"
 #include "app/progress.hpp"
 #include "app/record_report.hpp"
+#include "app/standard_output.hpp"
+#include "core/error.hpp"
 #include "core/file.hpp"
 #include "oni/recorder.hpp"
 #include "pipeline/source_state_notifier.hpp"
 #include "sources/open_source.hpp"
+#include "sources/source_kind.hpp"
 
 namespace saccade {
 namespace fs = std::filesystem;
@@ -53,14 +55,15 @@ class RecordRun {
   }
 
   void execute() {
+    check_file();
     const auto source = open_source(arguments_.source, settings_.sensor);
     const SourceInfo& info = source->info();
     for (const std::string& note : info.notes) spdlog::warn("{}: {}", info.uri, note);
     live_ = info.live;
+    const Interrupt::Handler handler(interrupt_, [&] { source->interrupt(); });
     OniWriter writer(arguments_.file, writer_options(info));
     begin_ = Clock::now();
     {
-      const Interrupt::Handler handler(interrupt_, [&] { source->interrupt(); });
       OniRecorder recorder(writer, kQueueFrames);
       Progress progress(!settings_.quiet, std::nullopt);
       take_frames(*source, recorder, progress);
@@ -76,6 +79,15 @@ class RecordRun {
   }
 
  private:
+  // Another ending would not be found by what reads recordings.
+  void check_file() const {
+    if (ending_of(arguments_.file) != ".oni")
+      throw usage_error("recordings are .oni files", arguments_.file, "name a file that ends in .oni");
+    std::error_code code;
+    if (fs::equivalent(arguments_.source, arguments_.file, code))
+      throw usage_error("a recording cannot replace its own source", arguments_.file, "choose another name");
+  }
+
   OniWriterOptions writer_options(const SourceInfo& info) const {
     OniWriterOptions options = arguments_.options;
     options.rate_hz = info.rate_hz;
@@ -140,10 +152,9 @@ class RecordRun {
 
   void print_summary() const {
     if (settings_.json)
-      fmt::print("{}\n", record_json(report_).dump());
+      print_json(record_json(report_));
     else if (!settings_.quiet)
-      fmt::print("{}\n", record_text(report_));
-    std::fflush(stdout);
+      print_text(record_text(report_) + "\n");
   }
 
   Interrupt interrupt_;  // before any thread is started

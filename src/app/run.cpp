@@ -1,9 +1,10 @@
 #include "app/run.hpp"
 
+#include <algorithm>
 #include <chrono>
-#include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <utility>
 
@@ -16,11 +17,14 @@
 #include "app/interrupt.hpp"
 #include "app/progress.hpp"
 #include "app/run_report.hpp"
+#include "app/standard_output.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
+#include "core/folder_lock.hpp"
 #include "models/model.hpp"
 #include "output/fixations_json.hpp"
 #include "output/frame_writer.hpp"
+#include "output/json_text.hpp"
 #include "output/writer_pool.hpp"
 #include "pipeline/pipeline.hpp"
 #include "sources/open_source.hpp"
@@ -53,9 +57,12 @@ class Run {
 
   void execute(const std::string& uri) {
     auto source = open(uri);
-    auto processor = make_processor(
-        {report_.settings, report_.settings, requested_outputs(report_.settings), report_.workers});
+    auto processor = make_processor(processor_options());
     make_output_folder(folder_);
+    const FolderLock lock(folder_, "saccade run");
+    const Interrupt::Handler until_processing(interrupt_, {});
+    std::error_code code;
+    has_earlier_run_ = fs::exists(folder_ / "manifest.json", code);
     write_manifest();
     try {
       process(std::move(source), std::move(processor));
@@ -86,6 +93,14 @@ class Run {
     return source;
   }
 
+  ProcessorOptions processor_options() const {
+    const Settings& settings = report_.settings;
+    ProcessorOptions options{settings, settings, {}, requested_outputs(settings), report_.workers};
+    if (tracks(settings, settings.selector, report_.source.sequence, report_.source.uri))
+      options.tracking = settings;
+    return options;
+  }
+
   void process(std::unique_ptr<FrameSource> source, std::unique_ptr<FrameProcessor> processor) {
     const Settings& settings = report_.settings;
     const auto begin = Clock::now();
@@ -95,7 +110,7 @@ class Run {
     Pipeline pipeline(std::move(source), std::move(processor), pipeline_options(writers));
     const Interrupt::Handler handler(interrupt_, [&] { pipeline.stop(); });
     WriterPool writer(writers, [&](const Result& result) {
-      write_frame(folder_, result, settings.dump, settings.first_level);
+      write_frame(folder_, result, settings.dump, settings.first_level, settings.overlay);
     });
     try {
       write_results(pipeline, writer, fixations, progress);
@@ -126,16 +141,19 @@ class Run {
     while (ResultHandle result = pipeline.next()) {
       // With the first result, since a run without any reports one line, the reason, and nothing else.
       if (std::exchange(first, false)) {
+        if (has_earlier_run_) remove_frame_files(folder_);  // it may have had more frames
         // The camera of a sensor that was connected late is known from its frames only.
         if (live) report_.source.intrinsics = result->frame.intrinsics;
         report_notes(report_.source, report_.settings);
       }
       fixations.append(fixations_json(*result));
       report_.stages.add(result->times);
+      report_.tracks.add(result->frame.index, result->attention);
       writer.submit(std::move(result));
       progress.update(pipeline.ledger().processed, more);
     }
     writer.finish();
+    fixations.check_in_place();
   }
 
   // Stops and discards the last results, so that the ledger is final.
@@ -149,12 +167,14 @@ class Run {
     }
     report_.ledger = pipeline.ledger();
     report_.latency = pipeline.latency();
+    std::ranges::sort(report_.rejected);
     if (report_.source.live) report_.device = pipeline.source_state();
     report_.wall_s = std::chrono::duration<double>(Clock::now() - begin).count();
   }
 
-  // On the capture thread; read by the others after it has ended.
+  // On the threads of the pipeline; read by the others after these have ended.
   void reject(std::int64_t index, const std::string& reason) {
+    const std::lock_guard lock(rejected_mutex_);
     if (report_.rejected.size() < kRejectedListed) report_.rejected.emplace_back(index, reason);
   }
 
@@ -166,7 +186,7 @@ class Run {
   }
 
   void write_manifest() const {
-    write_file(folder_ / "manifest.json", manifest_json(report_).dump(2) + "\n");
+    write_file(folder_ / "manifest.json", dump(manifest_json(report_), 2) + "\n");
   }
 
   void write_manifest_if_possible() const {
@@ -179,15 +199,16 @@ class Run {
 
   void print_summary() const {
     if (report_.settings.json)
-      fmt::print("{}\n", summary_json(report_).dump());
+      print_json(summary_json(report_));
     else if (!report_.settings.quiet)
-      fmt::print("{}\n", summary_text(report_));
-    std::fflush(stdout);
+      print_text(summary_text(report_) + "\n");
   }
 
   Interrupt interrupt_;  // before any thread is started
   fs::path folder_;
+  bool has_earlier_run_ = false;  // left its manifest in the folder
   RunReport report_;
+  std::mutex rejected_mutex_;  // guards report_.rejected while the pipeline runs
 };
 
 }  // namespace

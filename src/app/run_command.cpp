@@ -21,8 +21,9 @@ void add_run_command(CLI::App& app, std::function<void()>& action, std::vector<s
       ->required()
       ->type_name("DIR");
   const auto options = std::make_shared<SettingsOptions>(
-      command, AcceptedSettings{{SettingScope::model, SettingScope::attention, SettingScope::frames,
-                                 SettingScope::sensor, SettingScope::output, SettingScope::program}});
+      command, AcceptedSettings{{SettingScope::model, SettingScope::attention, SettingScope::tracking,
+                                 SettingScope::frames, SettingScope::sensor, SettingScope::output,
+                                 SettingScope::program}});
   command.callback([arguments, options, &action] {
     action = [arguments, options] {
       const Settings settings = options->resolve();

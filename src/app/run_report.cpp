@@ -69,6 +69,18 @@ Json source_json(const SourceInfo& source) {
   return json;
 }
 
+Json tracks_json(const TrackLog& log) {
+  Json tracks = Json::array();
+  for (const auto& [id, track] : log.tracks())
+    tracks.push_back({{"id", id},
+                      {"first_frame", track.first_frame},
+                      {"last_frame", track.last_frame},
+                      {"frames", track.frames},
+                      {"looks", track.looks},
+                      {"world_mm", {track.world_mm.x, track.world_mm.y, track.world_mm.z}}});
+  return {{"cuts", log.cuts()}, {"unlisted", log.unlisted()}, {"tracks", tracks}};
+}
+
 }  // namespace
 
 Json device_json(const SourceState& device) {
@@ -106,6 +118,7 @@ Json manifest_json(const RunReport& report) {
   json["intrinsics"] = intrinsics_json(report.settings.intrinsics.value_or(report.source.intrinsics));
   json["settings"] = settings_json(report.settings);
   json["workers"] = report.workers;
+  if (!report.tracks.empty()) json["tracking"] = tracks_json(report.tracks);
   Json rejected = Json::array();
   for (const auto& [index, reason] : report.rejected)
     rejected.push_back({{"frame", index}, {"reason", reason}});

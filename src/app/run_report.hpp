@@ -12,6 +12,7 @@
 #include "pipeline/ledger.hpp"
 #include "pipeline/stage_statistics.hpp"
 #include "settings/settings.hpp"
+#include "tracking/track_log.hpp"
 
 namespace saccade {
 
@@ -30,6 +31,7 @@ struct RunReport {
   std::vector<std::pair<std::int64_t, std::string>> rejected;  ///< source index and reason; the first 10000
   StageStatistics stages;
   DurationHistogram latency;          ///< from the capture of a frame to its result
+  TrackLog tracks;                    ///< of attention over time; empty = frames were taken one by one
   std::optional<SourceState> device;  ///< state of a live source at the end
   double wall_s = 0;
   std::string out;

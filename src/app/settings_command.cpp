@@ -3,10 +3,9 @@
 #include <memory>
 #include <string>
 
-#include <fmt/format.h>
-
 #include "app/options.hpp"
 #include "app/settings_texts.hpp"
+#include "app/standard_output.hpp"
 
 namespace saccade {
 
@@ -31,7 +30,7 @@ void add_settings_command(CLI::App& app, std::function<void()>& action) {
       const std::string text = state->all_defaults ? std::string(kDefaultToml)
                                : state->paper      ? std::string(kPaperToml)
                                                    : settings_toml(settings);
-      fmt::print("{}", text);
+      print_text(text);
     };
   });
 }

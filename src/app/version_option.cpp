@@ -2,11 +2,11 @@
 
 #include <memory>
 
-#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "app/build_info.hpp"
 #include "app/run_report.hpp"
+#include "app/standard_output.hpp"
 #include "core/version.hpp"
 #include "eval/evaluation_format.hpp"
 #include "output/fixations_json.hpp"
@@ -14,12 +14,12 @@
 
 namespace saccade {
 
-std::string version_json() {
+nlohmann::ordered_json version_info() {
   nlohmann::ordered_json libraries = nlohmann::ordered_json::object(), parts = libraries;
   for (const auto& [name, version] : kLibraries)
     if (!version.empty()) libraries[std::string(name)] = version;
   for (const auto& [name, built] : kParts) parts[std::string(name)] = built;
-  return nlohmann::ordered_json{{"program", "saccade"},
+  return {{"program", "saccade"},
                                 {"version", kVersion},
                                 {"formats",
                                  {{"settings", kSettingsFormat},
@@ -29,8 +29,7 @@ std::string version_json() {
                                 {"compiler", kCompiler},
                                 {"build_type", kBuildType},
                                 {"parts", parts},
-                                {"libraries", libraries}}
-      .dump(2);
+                                {"libraries", libraries}};
 }
 
 void add_version_option(CLI::App& app, std::function<void()>& action) {
@@ -38,7 +37,12 @@ void add_version_option(CLI::App& app, std::function<void()>& action) {
   CLI::Option* version = app.add_flag_callback(
       "--version",
       [json, &action] {
-        action = [json] { fmt::print("{}\n", *json ? version_json() : std::string("saccade ") + kVersion); };
+        action = [json] {
+          if (*json)
+            print_json(version_info(), 2);
+          else
+            print_text(std::string("saccade ") + kVersion + "\n");
+        };
       },
       "print the version and quit");
   app.add_flag("--json", *json, "with --version: also formats and libraries of the build, as JSON")

@@ -6,6 +6,7 @@
 #include <spdlog/spdlog.h>
 
 #include "app/command.hpp"
+#include "app/doctor.hpp"
 #include "app/interrupt.hpp"
 #include "app/options.hpp"
 #include "app/source_option.hpp"
@@ -36,6 +37,13 @@ std::vector<DeviceChoice> connected_sensors() {
   return choices;
 }
 
+std::vector<std::string> sensor_advice() {
+  std::vector<std::string> lines;
+  for (const Problem& problem : diagnose(examine("/sys")))
+    lines.push_back(problem.what + ": " + problem.remedy);
+  return lines;
+}
+
 cv::Size parse_size(const std::string& text) {
   int width = 0, height = 0;
   char rest = 0;
@@ -47,7 +55,8 @@ cv::Size parse_size(const std::string& text) {
 
 // Restores the state of the last session. The viewer starts even if the file cannot be read.
 void load_state(ViewState& state, const fs::path& file) {
-  if (file.empty() || !fs::exists(file)) return;
+  std::error_code code;
+  if (file.empty() || !fs::exists(file, code)) return;
   try {
     const auto bytes = read_file(file, 1u << 20);
     apply_view_state(state, {bytes.begin(), bytes.end()});
@@ -81,8 +90,11 @@ void view(const ViewArguments& arguments, const SettingsOptions& options) {
   ViewerOptions viewer_options;
   viewer_options.source = {
       arguments.source, {settings.start, settings.every, settings.frames}, settings.sensor};
-  if (arguments.source.empty())
-    viewer_options.source.uri = find_bundled_recording(fs::read_symlink("/proc/self/exe")).string();
+  viewer_options.example = find_bundled_recording(fs::read_symlink("/proc/self/exe")).string();
+  viewer_options.welcome = arguments.source.empty() && arguments.screenshot.empty();
+  if (arguments.source.empty()) viewer_options.source.uri = viewer_options.example;
+  if (viewer_options.source.uri.empty() && !arguments.screenshot.empty())
+    throw usage_error("nothing to show", "--screenshot", "name a SOURCE; the bundled recording is not there");
   if (!arguments.size.empty()) viewer_options.size = parse_size(arguments.size);
   viewer_options.screenshot = arguments.screenshot;
   viewer_options.after_frames = arguments.after_frames;
@@ -90,7 +102,7 @@ void view(const ViewArguments& arguments, const SettingsOptions& options) {
   viewer_options.paused = arguments.paused;
 
   Interrupt interrupt;
-  Viewer viewer(std::move(state), std::move(viewer_options), open_source, connected_sensors);
+  Viewer viewer(std::move(state), std::move(viewer_options), open_source, connected_sensors, sensor_advice);
   const Interrupt::Handler handler(interrupt, [&] { viewer.stop(); });
   viewer.run();
   if (arguments.screenshot.empty()) save_state(viewer.state(), file);

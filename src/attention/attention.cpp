@@ -17,6 +17,7 @@ void begin_attention(const cv::Mat1f& saliency, const cv::Mat1f& depth_mm, const
   if (!camera.valid()) throw std::invalid_argument("AttentionSelector: the camera is not valid");
   attention.fixations.clear();
   attention.ended_early.clear();
+  attention.sequence.reset();
   attention.masks.create(saliency.size());
   std::fill(attention.masks.begin(), attention.masks.end(), std::uint16_t{0});  // setTo() takes memory
 }

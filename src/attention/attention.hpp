@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <opencv2/core.hpp>
+#include <opencv2/core/affine.hpp>
 
 #include "attention/attention_settings.hpp"
 #include "attention/confidence.hpp"
@@ -29,6 +30,19 @@ struct Fixation {
   ProtoObject proto_object;  ///< pixels = 0: none was grown
   /// Probability that the point lies on an object, 0..1; none: the selector does not estimate it (`wta`).
   std::optional<float> confidence{};
+
+  // Of attention over time (src/tracking)
+  int id = 0;              ///< of the object, the same in all frames; 0 = frames are taken one by one
+  int age_frames = 0;      ///< in how many frames the object has been seen, this one among them
+  cv::Point3f world_mm{};  ///< the point in the world of SequenceState
+};
+
+/// Where a frame stands in its sequence.
+struct SequenceState {
+  std::optional<int> gaze;  ///< id of the object that is looked at; none = there is none
+  bool cut = false;         ///< nothing links the frame to those before it: the memory has begun again
+  cv::Affine3d
+      camera_to_world;  ///< mm; the world is the camera frame of the first frame, or of the first after a cut
 };
 
 /// Whether the point lies more probably on nothing than on an object.
@@ -39,7 +53,8 @@ inline bool is_doubtful(const Fixation& fixation) {
 /// The attention points of one frame, most salient first.
 struct Attention {
   std::vector<Fixation> fixations;
-  std::string ended_early;  ///< why there are fewer than were asked for; empty = there are not
+  std::optional<SequenceState> sequence;  ///< of attention over time only
+  std::string ended_early;                ///< why there are fewer than were asked for; empty = there are not
   cv::Mat1w masks;  ///< H x W, rank (1..) of the fixation whose proto-object holds the pixel, 0 = none; of
                     ///< the `wta` selector all 0
 };

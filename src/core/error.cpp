@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/text.hpp"
+
 namespace saccade {
 namespace {
 
@@ -11,7 +13,7 @@ std::string one_line(const std::string& what, const std::string& on, const std::
   if (!hint.empty()) line += " (" + hint + ")";
   std::replace_if(
       line.begin(), line.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
-  return line;
+  return printable(line);
 }
 
 }  // namespace

@@ -17,7 +17,8 @@ enum class ExitStatus {
 /// A mistake in the calling code is std::invalid_argument instead.
 class Error : public std::runtime_error {
  public:
-  /// what() becomes the one line "what: on (try)"; `on` and `hint` may be empty. Line breaks become blanks.
+  /// what() becomes the one line "what: on (try)"; `on` and `hint` may be empty. Line breaks become blanks,
+  /// and characters that are not printable() are escaped.
   Error(ExitStatus status, const std::string& what, const std::string& on, const std::string& hint);
 
   ExitStatus status() const noexcept { return status_; }

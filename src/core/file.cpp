@@ -1,6 +1,7 @@
 #include "core/file.hpp"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -19,6 +20,19 @@ constexpr const char* kWriteHint = "is the folder writable and the disk not full
 
 Error write_error(const std::filesystem::path& path, int code) {
   return failed(std::string("cannot write: ") + std::strerror(code), path.string(), kWriteHint);
+}
+
+// A device such as /dev/full is written in place: a rename would replace it.
+bool is_device(const std::filesystem::path& path) {
+  std::error_code code;
+  return std::filesystem::is_character_file(path, code);
+}
+
+// Opens without waiting for the reader of a pipe, and follows a symbolic link only to a device. Negative,
+// with errno, if that fails.
+int open_to_write(const std::string& path, int flags) {
+  const int link = is_device(path) ? 0 : O_NOFOLLOW;
+  return ::open(path.c_str(), O_WRONLY | O_CLOEXEC | O_NONBLOCK | link | flags, 0666);
 }
 
 // Writes all bytes or returns the errno of the failure.
@@ -55,17 +69,21 @@ void write_file(const std::filesystem::path& path, std::span<const std::uint8_t>
 }
 
 void write_file(const std::filesystem::path& path, std::string_view text) {
-  // A device such as /dev/full is written in place: a rename would replace it.
-  std::error_code code;
-  const bool special = std::filesystem::exists(path, code) && !std::filesystem::is_regular_file(path, code);
-  const std::string target = special ? path.string() : path.string() + ".part";
-  const int descriptor = ::open(target.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  const bool in_place = is_device(path);
+  const std::string target = in_place ? path.string() : path.string() + ".part";
+  if (!in_place) {
+    std::error_code code;
+    if (std::filesystem::exists(path, code) && !std::filesystem::is_regular_file(path, code))
+      throw failed("cannot write: not a regular file", path.string(), "choose another name");
+    ::unlink(target.c_str());  // of a process that was killed
+  }
+  const int descriptor = open_to_write(target, in_place ? 0 : O_CREAT | O_EXCL);
   if (descriptor < 0) throw write_error(path, errno);
   int problem = write_all(descriptor, text.data(), text.size());
   if (::close(descriptor) != 0 && problem == 0) problem = errno;
-  if (problem == 0 && !special && std::rename(target.c_str(), path.c_str()) != 0) problem = errno;
+  if (problem == 0 && !in_place && std::rename(target.c_str(), path.c_str()) != 0) problem = errno;
   if (problem != 0) {
-    if (!special) ::unlink(target.c_str());
+    if (!in_place) ::unlink(target.c_str());
     throw write_error(path, problem);
   }
 }
@@ -75,15 +93,25 @@ std::string megabytes(double bytes) {
 }
 
 LineFile::LineFile(const std::filesystem::path& path, Existing existing) : path_(path) {
+  std::error_code code;
+  if (std::filesystem::is_symlink(path, code) && !is_device(path))
+    throw failed("cannot write: it is a symbolic link", path_.string(), "delete it");
   const int emptied = existing == Existing::replace ? O_TRUNC : 0;
-  descriptor_ = ::open(path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC | emptied, 0666);
+  descriptor_ = open_to_write(path_.string(), O_CREAT | emptied);
   if (descriptor_ < 0) throw write_error(path_, errno);
+  struct stat status {};
+  is_regular_ = ::fstat(descriptor_, &status) == 0 && S_ISREG(status.st_mode);
+  if (!is_regular_ && !S_ISCHR(status.st_mode)) {
+    ::close(descriptor_);
+    throw failed("cannot write: not a regular file", path_.string(), "delete it");
+  }
   size_ = std::max<std::int64_t>(0, ::lseek(descriptor_, 0, SEEK_END));  // a device has no end
 }
 
 LineFile::~LineFile() { ::close(descriptor_); }
 
 void LineFile::append(std::string_view line) {
+  check_in_place();
   std::string text(line);
   text += '\n';
   if (const int problem = write_all(descriptor_, text.data(), text.size()); problem != 0) {
@@ -91,6 +119,12 @@ void LineFile::append(std::string_view line) {
     throw write_error(path_, problem);
   }
   size_ += static_cast<std::int64_t>(text.size());
+}
+
+void LineFile::check_in_place() const {
+  struct stat status {};
+  if (is_regular_ && ::fstat(descriptor_, &status) == 0 && status.st_nlink == 0)
+    throw failed("the file was deleted while it was being written", path_.string(), "start again");
 }
 
 }  // namespace saccade

@@ -22,6 +22,7 @@ void copy_frame(const Frame& frame, Frame& copy) {
   copy_image(frame.truth.labels, copy.truth.labels);
   copy_image(frame.truth.classes, copy.truth.classes);
   copy_image(frame.truth.normals, copy.truth.normals);
+  copy.truth.camera_to_world = frame.truth.camera_to_world;
 }
 
 }  // namespace saccade

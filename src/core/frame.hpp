@@ -1,9 +1,11 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include <opencv2/core.hpp>
+#include <opencv2/core/affine.hpp>
 
 #include "core/intrinsics.hpp"
 
@@ -16,6 +18,7 @@ struct GroundTruth {
                       ///< structure such as walls; empty = unknown
   cv::Mat3f normals;  ///< H x W, exact unit normals in camera frame, towards the camera, 0 = no surface;
                       ///< empty = unknown
+  std::optional<cv::Affine3d> camera_to_world;  ///< mm, in a world of the source's own; none = unknown
 };
 
 /// One measurement of a sensor. Copying shares the pixels (cv::Mat counts references). Use copy_frame() to

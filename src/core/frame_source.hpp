@@ -23,6 +23,7 @@ struct SourceInfo {
   Intrinsics intrinsics;
   bool has_depth = true;  ///< false: a plain camera or video, whose depth never has a reading
   bool live = false;      ///< the source sets the time of each frame, and no frame can be read twice
+  bool sequence = false;  ///< each frame shows the scene of the one before it a moment later
   /// For the user to know, such as gaps and guesses; one line each. Those of a live sensor are as of its
   /// opening.
   std::vector<std::string> notes;

@@ -9,6 +9,8 @@
 #include <spng.h>
 #include <opencv2/imgproc.hpp>
 
+#include "core/image_size.hpp"
+
 namespace saccade {
 namespace {
 
@@ -26,10 +28,7 @@ Context open(std::span<const std::uint8_t> png, spng_ihdr& header) {
                               1u << 30));  // our own limit, below, has the clearer message
   check(spng_set_png_buffer(context.get(), png.data(), png.size()));
   check(spng_get_ihdr(context.get(), &header));
-  if (header.width > static_cast<unsigned>(kLargestSide) ||
-      header.height > static_cast<unsigned>(kLargestSide))
-    throw std::runtime_error(
-        fmt::format("{}x{} is larger than {} pixels a side", header.width, header.height, kLargestSide));
+  check_image_size(header.width, header.height);
   return context;
 }
 

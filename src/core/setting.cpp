@@ -5,6 +5,15 @@
 #include <fmt/format.h>
 
 namespace saccade {
+namespace {
+
+std::string_view without_blanks(std::string_view text) {
+  const auto begin = text.find_first_not_of(' ');
+  if (begin == std::string_view::npos) return {};
+  return text.substr(begin, text.find_last_not_of(' ') + 1 - begin);
+}
+
+}  // namespace
 
 std::string print_number(std::int64_t value) { return fmt::format("{}", value); }
 
@@ -25,8 +34,8 @@ std::vector<std::string> split_list(std::string_view text) {
   std::vector<std::string> parts;
   std::size_t begin = 0;
   for (std::size_t end; (end = text.find(',', begin)) != std::string_view::npos; begin = end + 1)
-    parts.emplace_back(text.substr(begin, end - begin));
-  parts.emplace_back(text.substr(begin));
+    parts.emplace_back(without_blanks(text.substr(begin, end - begin)));
+  parts.emplace_back(without_blanks(text.substr(begin)));
   return parts;
 }
 

@@ -6,21 +6,22 @@
 #include <stdexcept>
 #include <utility>
 
+#include "core/raise_flag.hpp"
+
 namespace saccade {
 
 WorkerPool::WorkerPool(int workers) {
   if (workers < 1) throw std::invalid_argument("WorkerPool: workers must be at least 1");
   threads_.reserve(static_cast<std::size_t>(workers - 1));
-  for (int worker = 1; worker < workers; ++worker) threads_.emplace_back([this, worker] { work(worker); });
+  try {
+    for (int worker = 1; worker < workers; ++worker) threads_.emplace_back([this, worker] { work(worker); });
+  } catch (...) {  // the system has no more threads: those that there are must end before they are joined
+    raise_flag(stop_, mutex_, start_);
+    throw;
+  }
 }
 
-WorkerPool::~WorkerPool() {
-  {
-    const std::lock_guard lock(mutex_);
-    stop_ = true;
-  }
-  start_.notify_all();
-}
+WorkerPool::~WorkerPool() { raise_flag(stop_, mutex_, start_); }
 
 void WorkerPool::for_each(int chunks, const std::function<void(int, int)>& job) {
   {

@@ -16,6 +16,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr int kMostShards = 100'000;
+constexpr std::int64_t kMostPositions = 1'000'000'000'000;
 
 // Reads each word of the list with the setting's own parser; `take` gets the settings that hold it.
 template <typename Take>
@@ -98,22 +99,23 @@ Json plan_json(const EvalPlan& plan) {
           {"shard", plan.shard},         {"shards", plan.shards}};
 }
 
-std::string dump(const Json& json, int indent) {
-  return json.dump(indent, ' ', false, Json::error_handler_t::replace);
-}
-
 EvalPlan plan_from_json(const Json& json) {
   if (json.at("format") != kEvaluationFormat)
     throw usage_error("results of another version", "", "evaluate again");
   EvalPlan plan;
   plan.dataset = json.at("dataset");
-  plan.positions = json.at("frames");
-  plan.points = json.at("points");
-  plan.shard = json.at("shard");
-  plan.shards = json.at("shards");
-  if (plan.points < 1 || plan.points > kMostPoints || plan.shard < 1 || plan.shards < plan.shard ||
-      plan.shards > kMostShards)
-    throw usage_error("points or shard out of range", "", "evaluate again");
+  const auto integer = [&](const char* key, std::int64_t low, std::int64_t high) {
+    const Json& value = json.at(key);
+    if (!value.is_number_integer() || value.get<double>() < static_cast<double>(low) ||
+        value.get<double>() > static_cast<double>(high))
+      throw usage_error(fmt::format("{} is not an integer from {} to {}", key, low, high), "",
+                        "evaluate again");
+    return value.get<std::int64_t>();
+  };
+  plan.positions = integer("frames", 0, kMostPositions);
+  plan.points = static_cast<int>(integer("points", 1, kMostPoints));
+  plan.shards = static_cast<int>(integer("shards", 1, kMostShards));
+  plan.shard = static_cast<int>(integer("shard", 1, plan.shards));
   const auto list = [&](const char* key) {
     std::string words;
     for (const auto& word : json.at(key))

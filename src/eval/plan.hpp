@@ -67,9 +67,6 @@ void parse_shard(EvalPlan& plan, const std::string& text);
 /// Everything that the results depend on. An interrupted evaluation continues only with the same.
 nlohmann::ordered_json plan_json(const EvalPlan& plan);
 
-/// A JSON value as text. Bytes that are not UTF-8, which names of files may hold, are replaced.
-std::string dump(const nlohmann::ordered_json& json, int indent = -1);
-
 /// The plan that plan_json() wrote. Throws Error (usage) or a JSON exception if `json` is not one.
 EvalPlan plan_from_json(const nlohmann::ordered_json& json);
 

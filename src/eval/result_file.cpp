@@ -1,6 +1,8 @@
 #include "eval/result_file.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <optional>
 #include <set>
 #include <string_view>
@@ -10,6 +12,9 @@
 
 #include "core/error.hpp"
 #include "core/file.hpp"
+#include "core/image_size.hpp"
+#include "eval/hit_ratio.hpp"
+#include "output/json_text.hpp"
 
 namespace saccade {
 namespace fs = std::filesystem;
@@ -18,6 +23,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr std::uintmax_t kLargestFile = std::uintmax_t{8} << 30;
+constexpr double kMostFrames = 1e15;  // of a source, so that doubles hold them exactly
+constexpr int kMostLabel = 65535;
 
 Json condition_json(const ConditionResult& condition) {
   Json points = Json::array();
@@ -29,28 +36,64 @@ Json condition_json(const ConditionResult& condition) {
   return {{"points", points}, {"map_ms", condition.map_ms}, {"select_ms", condition.select_ms}};
 }
 
-ConditionResult condition_from(const Json& json) {
-  ConditionResult condition{{}, json.at("map_ms"), json.at("select_ms")};
-  for (const auto& p : json.at("points")) {
-    EvalPoint& point = condition.points.emplace_back(EvalPoint{p.at(0), p.at(1), p.at(2)});
-    if (p.size() > 3) point.confidence = p[3].get<float>();
-  }
+// The number in `json`, which may be somebody else's. Throws std::runtime_error unless it is in low..high.
+double number_from(const Json& json, double low, double high, std::string_view what) {
+  const double value = json.is_number() ? json.get<double>() : std::nan("");
+  if (!(value >= low && value <= high))
+    throw std::runtime_error(fmt::format("{} is not a number from {} to {}", what, low, high));
+  return value;
+}
+
+std::int64_t integer_from(const Json& json, double low, double high, std::string_view what) {
+  if (!json.is_number_integer()) throw std::runtime_error(fmt::format("{} is not an integer", what));
+  return static_cast<std::int64_t>(number_from(json, low, high, what));
+}
+
+double ms_from(const Json& json, std::string_view what) { return number_from(json, 0, 1e9, what); }
+
+EvalPoint point_from(const Json& json) {
+  const auto field = [&](std::size_t i, int low, int high, const char* what) {
+    return static_cast<int>(integer_from(json.at(i), low, high, what));
+  };
+  EvalPoint point{field(0, 0, kLargestSide - 1, "row"), field(1, 0, kLargestSide - 1, "column"),
+                  field(2, kVoid, kMostLabel, "label")};
+  if (json.size() > 3) point.confidence = static_cast<float>(number_from(json[3], 0, 1, "confidence"));
+  return point;
+}
+
+ConditionResult condition_from(const Json& json, const EvalPlan& plan) {
+  ConditionResult condition{
+      {}, ms_from(json.at("map_ms"), "map_ms"), ms_from(json.at("select_ms"), "select_ms")};
+  const Json& points = json.at("points");
+  if (points.size() > static_cast<std::size_t>(plan.points) * kVoidReserve)
+    throw std::runtime_error("too many points");
+  for (const auto& point : points) condition.points.push_back(point_from(point));
   return condition;
+}
+
+// The expected Hit Ratios of a baseline.
+std::vector<double> ratios_from(const Json& json, std::string_view what) {
+  if (!json.is_array() || json.size() > kMostPoints)
+    throw std::runtime_error(fmt::format("{} is not a list of ratios", what));
+  std::vector<double> ratios;
+  for (const auto& value : json) ratios.push_back(number_from(value, 0, 1, what));
+  return ratios;
 }
 
 ImageResult image_from(const Json& json, const EvalPlan& plan) {
   ImageResult image;
-  image.frame = json.at("frame");
+  image.frame = integer_from(json.at("frame"), 0, kMostFrames, "frame");
   image.name = json.at("name");
   if (json.contains("left_out")) {
     image.left_out = json.at("left_out").get<std::string>();
     return image;
   }
-  image.objects = json.at("objects");
+  image.objects = static_cast<int>(integer_from(json.at("objects"), 0, kMostLabel, "objects"));
   image.void_known = json.at("void_known");
-  image.random = json.at("random").get<std::vector<double>>();
-  image.centre = json.at("centre").get<std::vector<double>>();
-  for (const auto& condition : json.at("conditions")) image.conditions.push_back(condition_from(condition));
+  image.random = ratios_from(json.at("random"), "random");
+  image.centre = ratios_from(json.at("centre"), "centre");
+  for (const auto& condition : json.at("conditions"))
+    image.conditions.push_back(condition_from(condition, plan));
   const auto points = static_cast<std::size_t>(plan.points);
   if (image.random.size() != points || image.centre.size() != points ||
       image.conditions.size() != plan.conditions().size())
@@ -74,22 +117,31 @@ Lines split_lines(std::string_view text) {
 
 StoredResults parse_results(const Lines& lines, const fs::path& path) {
   StoredResults results;
+  std::set<std::int64_t> frames;
   std::size_t number = 1;
+  const auto not_results = [&](const std::string& reason) {
+    return unreadable("not the results of an evaluation: " + reason,
+                      fmt::format("{}:{}", path.string(), number), "remove it to start again");
+  };
   try {
     if (lines.complete.empty()) throw std::runtime_error("no line with the parameters");
     for (const std::string_view line : lines.complete) {
       const Json json = Json::parse(line);
-      if (number == 1)
+      if (number == 1) {
         results.plan = plan_from_json(json);
-      else if (json.contains("end"))
+      } else if (json.contains("end")) {
         results.complete = true;
-      else
-        results.images.push_back(image_from(json, results.plan));
+      } else {
+        const ImageResult& image = results.images.emplace_back(image_from(json, results.plan));
+        if (!frames.insert(image.frame).second)
+          throw std::runtime_error(fmt::format("frame {} is there twice", image.frame));
+      }
       ++number;
     }
+  } catch (const Json::exception&) {  // whose text is not for users
+    throw not_results("not JSON, or a field is missing or of another kind");
   } catch (const std::exception& error) {
-    throw unreadable(fmt::format("not the results of an evaluation: {}", error.what()),
-                     fmt::format("{}:{}", path.string(), number), "remove it to start again");
+    throw not_results(error.what());
   }
   return results;
 }
@@ -146,7 +198,9 @@ StoredResults read_results(const fs::path& folder) {
 StoredResults resume_results(const fs::path& folder, const EvalPlan& plan) {
   const fs::path path = folder / kResultFile;
   std::string text;
-  if (fs::exists(path)) text = read_text(path);
+  std::error_code code;
+  if (fs::is_symlink(path, code)) throw failed("it is a symbolic link", path.string(), "delete it");
+  if (fs::exists(path, code)) text = read_text(path);
   const Lines lines = split_lines(text);
   if (lines.complete.empty()) {
     LineFile(path).append(plan_line(plan));

@@ -12,12 +12,12 @@
 namespace saccade {
 namespace {
 
-struct JpegShape {
-  int width = 0, height = 0, components = 0;
-};
+bool has_usable_components(int components) { return components == 1 || components == 3; }
 
-// The declaration in the first frame header (SOF0 to SOF2: baseline, extended, progressive).
-std::optional<JpegShape> read_shape(std::span<const std::uint8_t> bytes) {
+}  // namespace
+
+// The declaration is in the first frame header (SOF0 to SOF2).
+std::optional<cv::Size> jpeg_size(std::span<const std::uint8_t> bytes) {
   if (bytes.size() < 4 || bytes[0] != 0xFF || bytes[1] != 0xD8) return std::nullopt;
   std::size_t at = 2;
   while (at + 4 <= bytes.size()) {
@@ -30,7 +30,8 @@ std::optional<JpegShape> read_shape(std::span<const std::uint8_t> bytes) {
     const std::size_t length = static_cast<std::size_t>(bytes[at + 2]) << 8 | bytes[at + 3];
     if (marker >= 0xC0 && marker <= 0xC2) {
       if (length < 8 || at + 10 > bytes.size()) return std::nullopt;
-      return JpegShape{bytes[at + 7] << 8 | bytes[at + 8], bytes[at + 5] << 8 | bytes[at + 6], bytes[at + 9]};
+      if (!has_usable_components(bytes[at + 9])) return std::nullopt;
+      return cv::Size(bytes[at + 7] << 8 | bytes[at + 8], bytes[at + 5] << 8 | bytes[at + 6]);
     }
     // The image data, its end, or a frame of a kind that no camera makes.
     const bool other_frame =
@@ -40,8 +41,6 @@ std::optional<JpegShape> read_shape(std::span<const std::uint8_t> bytes) {
   }
   return std::nullopt;
 }
-
-}  // namespace
 
 struct JpegCodec::Handles {
   tjhandle decompress = tjInitDecompress();
@@ -60,12 +59,11 @@ JpegCodec::JpegCodec() : handles_(std::make_unique<Handles>()) {
 JpegCodec::~JpegCodec() = default;
 
 Outcome JpegCodec::decode(std::span<const std::uint8_t> payload, cv::Size size, cv::Mat3b& image) {
-  const auto shape = read_shape(payload);
-  if (!shape || (shape->components != 1 && shape->components != 3))
-    return Outcome::failure("not a JPEG image");
-  if (shape->width != size.width || shape->height != size.height)
-    return Outcome::failure(fmt::format("a JPEG of {} x {} instead of {} x {}", shape->width, shape->height,
-                                        size.width, size.height));
+  const auto declared = jpeg_size(payload);
+  if (!declared) return Outcome::failure("not a JPEG image");
+  if (*declared != size)
+    return Outcome::failure(fmt::format("a JPEG of {} x {} instead of {} x {}", declared->width,
+                                        declared->height, size.width, size.height));
   // Even a flat image takes at least one bit for 64 pixels.
   if (static_cast<std::size_t>(size.area()) / 512 > payload.size())
     return Outcome::failure("a JPEG too short for its size");

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -10,6 +11,10 @@
 #include "core/outcome.hpp"
 
 namespace saccade {
+
+/// The size that a JPEG image of 1 or 3 components declares (baseline, extended or progressive); std::nullopt
+/// for other data.
+std::optional<cv::Size> jpeg_size(std::span<const std::uint8_t> payload);
 
 /// Decodes and encodes the JPEG images of a recording (README 4.4) with libjpeg-turbo. Keeps its state
 /// between images. Thread safety: one call at a time per object.

@@ -36,17 +36,39 @@ std::uint64_t size_limit() {
 }  // namespace
 
 OutputFile::OutputFile(const std::filesystem::path& path, bool overwrite) : name_(path.string()) {
-  // An existing file is replaced, not emptied: another process may be reading it.
+  // An existing file is replaced, not emptied: another process may be reading it, and no frame may come.
   std::error_code ignored;
-  if (overwrite && std::filesystem::is_regular_file(path, ignored)) ::unlink(path.c_str());
-  descriptor_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  if (overwrite && std::filesystem::is_regular_file(path, ignored)) {
+    temporary_name_ = name_ + ".part";
+    ::unlink(temporary_name_.c_str());  // of a process that was killed
+  }
+  const std::string& target = is_published() ? name_ : temporary_name_;
+  descriptor_ = ::open(target.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
   if (descriptor_ >= 0) return;
   if (errno == EEXIST)
     throw usage_error("the file exists", name_, "choose another name, or --force to replace it");
   throw write_error(name_, "cannot create", errno);
 }
 
-OutputFile::~OutputFile() { ::close(descriptor_); }
+OutputFile::~OutputFile() {
+  if (!is_published()) remove();
+  ::close(descriptor_);
+}
+
+void OutputFile::publish() {
+  if (is_published()) return;
+  flush();
+  if (::rename(temporary_name_.c_str(), name_.c_str()) != 0)
+    throw write_error(name_, "cannot replace the file", errno);
+  temporary_name_.clear();
+  flush_folder();
+}
+
+void OutputFile::check_in_place() const {
+  struct stat status {};
+  if (::fstat(descriptor_, &status) == 0 && status.st_nlink == 0)
+    throw failed("the file was deleted while it was being written", name_, "start again");
+}
 
 bool OutputFile::reserve(std::uint64_t bytes) {
   const std::uint64_t wanted = size_ + bytes;
@@ -125,6 +147,6 @@ void OutputFile::release_reserve() {
   reserved_ = 0;
 }
 
-void OutputFile::remove() { ::unlink(name_.c_str()); }
+void OutputFile::remove() { ::unlink(is_published() ? name_.c_str() : temporary_name_.c_str()); }
 
 }  // namespace saccade

@@ -11,10 +11,11 @@ namespace saccade {
 /// disk that has become full (README 9). Thread safety: one call at a time.
 class OutputFile {
  public:
-  /// Creates the file. With `overwrite` an existing one is replaced, without it that is an Error (usage).
-  /// Throws Error (failed) if it cannot be created.
+  /// Creates the file. An existing one is an Error (usage), unless `overwrite` is set: then the new file is
+  /// written beside it as NAME.part, and replaces it with publish(). Throws Error (failed) if it cannot be
+  /// created.
   OutputFile(const std::filesystem::path& path, bool overwrite);
-  /// Closes the file and keeps it.
+  /// Closes the file and keeps it; a file that was to replace another and was not published is removed.
   ~OutputFile();
   OutputFile(const OutputFile&) = delete;
   OutputFile& operator=(const OutputFile&) = delete;
@@ -31,6 +32,13 @@ class OutputFile {
   /// there is no room. Throws Error (failed) for any other failure.
   [[nodiscard]] bool append(std::span<const std::uint8_t> bytes);
 
+  /// Replaces the file of this name that existed before, once this one holds something. Does nothing if there
+  /// was none. Throws Error (failed).
+  void publish();
+
+  /// Throws Error (failed) if the file was deleted from its folder meanwhile.
+  void check_in_place() const;
+
   /// Replaces existing bytes. Throws Error (failed).
   void overwrite(std::uint64_t position, std::span<const std::uint8_t> bytes);
 
@@ -44,11 +52,13 @@ class OutputFile {
   /// Releases the reserved blocks that are not used.
   void release_reserve();
 
-  /// Removes the file from its folder.
+  /// Removes the file from its folder. A file that it was to replace stays.
   void remove();
 
  private:
-  std::string name_;
+  bool is_published() const { return temporary_name_.empty(); }
+
+  std::string name_, temporary_name_;  // empty once the file has its name
   int descriptor_ = -1;
   std::uint64_t size_ = 0;
   std::uint64_t reserved_ = 0;  // the file has blocks up to this size

@@ -193,6 +193,8 @@ void OniRecordWriter::close() {
   file_.overwrite(0, header.bytes());
   file_.release_reserve();
   file_.flush();
+  file_.check_in_place();
+  file_.publish();
 }
 
 }  // namespace saccade

@@ -47,10 +47,12 @@ class OniRecordWriter {
 
   /// Waits until all written bytes are on the disk. Throws Error (failed).
   void flush() { file_.flush(); }
-  /// Waits until the file's entry in its folder is on the disk; see OutputFile.
+  /// As those of OutputFile.
   void flush_folder() { file_.flush_folder(); }
+  void publish() { file_.publish(); }
 
-  /// Writes tables and counts; the last call. Throws Error (failed); the file is then an unclosed recording.
+  /// Writes tables and counts; the last call. Throws Error (failed), also if the file was deleted meanwhile;
+  /// the file is then an unclosed recording.
   void close();
 
   const std::string& name() const { return file_.name(); }

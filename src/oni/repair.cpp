@@ -48,6 +48,9 @@ class Repair {
   OniRepairReport run() {
     try {
       copy();
+      if (report_.frames == 0)
+        throw unreadable("no frame can be saved", recording_.file().name(),
+                         "every frame of the recording is damaged");
       writer_->close();
     } catch (const Error&) {
       writer_->remove();

@@ -18,9 +18,9 @@ struct OniRepairReport {
 /// Writes a new, sound recording (README 10) of every good frame of `from`. It omits damaged parts, bad
 /// frames and streams that no player can decode, adds the properties that the stock players need, and writes
 /// new tables and counts. Payloads are copied, so no pixel changes. The new file has version 1.0.1.0. The
-/// original is never changed. Throws Error: `from` is no recording or has no usable stream (unreadable); `to`
-/// exists and `overwrite` is false, or is the same file (usage); the disk is full
-/// (failed, and `to` is removed).
+/// original is never changed. Throws Error: `from` is no recording, has no usable stream or no good frame
+/// (unreadable); `to` exists and `overwrite` is false, or is the same file (usage); the disk is full
+/// (failed). After an error `to` is as it was before.
 OniRepairReport repair_recording(const std::filesystem::path& from, const std::filesystem::path& to,
                                  bool overwrite);
 

@@ -209,7 +209,7 @@ void OniWriter::write(const Frame& frame) {
   }
   const auto time = static_cast<std::uint64_t>(std::max<std::int64_t>(0, frame.timestamp_us - origin_us_));
   if (!records_.write_frame(kDepthNode, time, depth_payload_)) stop_for_full_disk();
-  ++counts_.frames;
+  if (++counts_.frames == 1) records_.publish();
   if (with_colour && !records_.write_frame(kColourNode, time, colour_payload_)) stop_for_full_disk();
   ++counts_.unsynced;
   counts_.most_unsynced = std::max(counts_.most_unsynced, counts_.unsynced);

@@ -54,8 +54,9 @@ struct OniWriterCounts {
 /// other players skip. Thread safety: one call at a time per object.
 class OniWriter {
  public:
-  /// Creates the file, still empty. Throws Error (usage) if it exists and is not to be overwritten, Error
-  /// (failed) if it cannot be created; std::invalid_argument for a quality out of range.
+  /// Creates the file, still empty. One that it replaces stays until the first frame is written. Throws Error
+  /// (usage) if it exists and is not to be overwritten, Error (failed) if it cannot be created;
+  /// std::invalid_argument for a quality out of range.
   OniWriter(const std::filesystem::path& path, const OniWriterOptions& options);
   /// Closes the file if close() was not called, and ignores errors; removes a file without a frame.
   ~OniWriter();

@@ -1,26 +1,64 @@
 #include "output/frame_writer.hpp"
 
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <string_view>
 #include <vector>
 
 #include <fmt/format.h>
-#include <opencv2/imgcodecs.hpp>
-#include <opencv2/imgproc.hpp>
 
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "core/png.hpp"
 #include "output/colour_map.hpp"
+#include "output/tiff.hpp"
 
 namespace saccade {
 namespace {
 
-// Uncompressed, for any reader.
-void write_tiff(const std::filesystem::path& path, const cv::Mat& image) {
-  constexpr int kNoCompression = 1;
-  std::vector<std::uint8_t> bytes;
-  if (!cv::imencode(".tiff", image, bytes, {cv::IMWRITE_TIFF_COMPRESSION, kNoCompression}))
-    throw failed("cannot encode TIFF", path.string(), "is there enough memory?");
-  write_file(path, bytes);
+bool is_number(std::string_view text) {
+  return std::ranges::all_of(text, [](unsigned char c) { return std::isdigit(c) != 0; });
+}
+
+// Whether this is a map or picture of write_frame(): "000012_saliency.tiff". Not depth, colour and clouds:
+// they may be the only copy of a recording.
+bool is_frame_file(std::string_view name) {
+  constexpr std::array<std::string_view, 6> kEndings = {"saliency.tiff", "saliency.png", "normals.tiff",
+                                                        "masks.png",     "labels.png",   "overlay.png"};
+  constexpr std::string_view kLevel = "level", kTiff = ".tiff";
+  const auto line = name.find('_');
+  if (line < 6 || line == std::string_view::npos || !is_number(name.substr(0, line))) return false;
+  std::string_view ending = name.substr(line + 1);
+  if (std::ranges::count(kEndings, ending) > 0) return true;
+  if (!ending.starts_with(kLevel) || !ending.ends_with(kTiff)) return false;
+  ending.remove_prefix(kLevel.size());
+  return ending.size() > kTiff.size() && is_number(ending.substr(0, ending.size() - kTiff.size()));
+}
+
+void append(std::vector<std::uint8_t>& bytes, const void* data, std::size_t size) {
+  const auto* begin = static_cast<const std::uint8_t*>(data);
+  bytes.insert(bytes.end(), begin, begin + size);
+}
+
+// The points of all pixels with a reading, row by row; grey where the frame has no colour.
+std::vector<std::uint8_t> cloud_ply(const Frame& frame) {
+  const std::string header = fmt::format(
+      "ply\nformat binary_little_endian 1.0\nelement vertex {}\nproperty float x\nproperty float y\n"
+      "property float z\nproperty uchar red\nproperty uchar green\nproperty uchar blue\nend_header\n",
+      cv::countNonZero(frame.depth_mm > 0));
+  std::vector<std::uint8_t> bytes(header.begin(), header.end());
+  for (int r = 0; r < frame.depth_mm.rows; ++r)
+    for (int c = 0; c < frame.depth_mm.cols; ++c) {
+      const auto z = static_cast<double>(frame.depth_mm(r, c));
+      if (!(z > 0)) continue;
+      const cv::Point3f point = frame.intrinsics.point_mm(r, c, z);
+      const cv::Vec3b bgr = frame.colour.empty() ? cv::Vec3b(160, 160, 160) : frame.colour(r, c);
+      const std::array<std::uint8_t, 3> rgb = {bgr[2], bgr[1], bgr[0]};
+      append(bytes, &point, sizeof point);
+      append(bytes, rgb.data(), sizeof rgb);
+    }
+  return bytes;
 }
 
 }  // namespace
@@ -32,17 +70,22 @@ void write_frame(const std::filesystem::path& folder, const Result& result, cons
   };
   const SaliencyMaps& maps = result.maps;
   if (dump.contains("maps")) {
-    write_tiff(path("saliency.tiff"), maps.master);
+    write_file(path("saliency.tiff"), encode_tiff(maps.master));
     write_file(path("saliency.png"), encode_png(to_grey(maps.master)));
   }
+  const Frame& frame = result.frame;
+  if (dump.contains("depth")) {
+    cv::Mat1w depth;
+    frame.depth_mm.convertTo(depth, CV_16U);
+    write_file(path("depth.png"), encode_png(depth));
+  }
+  if (dump.contains("colour") && !frame.colour.empty()) write_file(path("rgb.png"), encode_png(frame.colour));
+  if (dump.contains("cloud")) write_file(path("cloud.ply"), cloud_ply(frame));
   if (dump.contains("levels"))
     for (std::size_t i = 0; i < maps.levels.size(); ++i)
-      write_tiff(path(fmt::format("level{}.tiff", first_level + static_cast<int>(i))), maps.levels[i]);
-  if (dump.contains("normals")) {
-    cv::Mat3f xyz;  // the encoder expects B, G, R and reverses the channels
-    cv::cvtColor(maps.normals, xyz, cv::COLOR_BGR2RGB);
-    write_tiff(path("normals.tiff"), xyz);
-  }
+      write_file(path(fmt::format("level{}.tiff", first_level + static_cast<int>(i))),
+                 encode_tiff(maps.levels[i]));
+  if (dump.contains("normals")) write_file(path("normals.tiff"), encode_tiff(maps.normals));
   if (dump.contains("masks")) {
     const bool none = result.attention.masks.empty();
     write_file(path("masks.png"),
@@ -53,6 +96,18 @@ void write_frame(const std::filesystem::path& folder, const Result& result, cons
   if (dump.contains("overlay"))
     write_file(path("overlay.png"),
                encode_png(draw_overlay(result.frame, maps.master, result.attention, style)));
+}
+
+void remove_frame_files(const std::filesystem::path& folder) {
+  namespace fs = std::filesystem;
+  std::error_code code;
+  std::vector<fs::path> files;
+  for (fs::directory_iterator file(folder, code), end; !code && file != end; file.increment(code))
+    if (is_frame_file(file->path().filename().string())) files.push_back(file->path());
+  for (const fs::path& file : files)
+    if (!fs::remove(file, code) && code)
+      throw failed("cannot remove a file of an earlier run: " + code.message(), file.string(),
+                   "choose another --out");
 }
 
 }  // namespace saccade

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/setting.hpp"
+#include "output/overlay.hpp"
 #include "saliency/symmetry3d.hpp"
 
 namespace saccade {
@@ -14,6 +15,7 @@ namespace saccade {
 struct OutputSettings {
   std::set<std::string> dump = {"maps", "overlay"};  ///< files of each frame; see write_frame()
   bool json = false;                                 ///< a summary in JSON on standard output
+  OverlayStyle overlay{};                            ///< of the overlay's picture
 };
 
 std::vector<SettingOf<OutputSettings>> output_setting_specs();

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstdint>
 #include <limits>
 #include <span>
 #include <stdexcept>
@@ -15,12 +17,6 @@ namespace saccade {
 namespace {
 
 const cv::Scalar kMark(255, 255, 255), kFirstMark(80, 255, 80), kFaintMark(128, 128, 128), kShadow(0, 0, 0);
-
-// `rank` from 1.
-const cv::Scalar& colour_of(const std::vector<Fixation>& fixations, std::size_t rank) {
-  if (is_doubtful(fixations[rank - 1])) return kFaintMark;
-  return rank == 1 ? kFirstMark : kMark;
-}
 
 // Marks and lines grow with the picture: 1 at 640 pixels wide.
 double mark_size(const cv::Mat3b& picture) { return std::clamp(picture.cols / 640.0, 0.5, 4.0); }
@@ -53,11 +49,17 @@ std::vector<cv::Rect> object_boxes(const Attention& attention) {
   return boxes;
 }
 
+// Doubtful fixations are grey. Frame by frame the first has a colour of its own; over time each object has.
+cv::Scalar mark_colour(const Attention& attention, std::size_t index) {
+  if (is_doubtful(attention.fixations[index])) return kFaintMark;
+  if (attention.sequence) return object_colour(attention.fixations[index].id);
+  return index == 0 ? kFirstMark : kMark;
+}
+
 void draw_outlines(cv::Mat3b& picture, const Attention& attention) {
   const int line = std::max(1, cvRound(mark_size(picture)));
   for (const Outline& outline : proto_outlines(attention))
-    cv::polylines(picture, outline.points, true, colour_of(attention.fixations, outline.rank), line,
-                  cv::LINE_AA);
+    cv::polylines(picture, outline.points, true, mark_colour(attention, outline.rank - 1), line, cv::LINE_AA);
 }
 
 void draw_label(cv::Mat3b& picture, const std::string& text, cv::Point centre, double size,
@@ -77,15 +79,20 @@ void draw_path(cv::Mat3b& picture, const std::vector<Fixation>& fixations) {
              is_doubtful(fixations[i]) ? kFaintMark : kMark, line, cv::LINE_AA);
 }
 
-void draw_marks(cv::Mat3b& picture, const std::vector<Fixation>& fixations) {
+// Numbered by rank or, over time, by id; with a ring around the object that is looked at.
+void draw_marks(cv::Mat3b& picture, const Attention& attention) {
+  const std::vector<Fixation>& fixations = attention.fixations;
   const double size = mark_size(picture);
   const int radius = cvRound(11 * size), line = std::max(1, cvRound(size));
   for (std::size_t i = fixations.size(); i-- > 0;) {  // the first on top
     const cv::Point centre(fixations[i].col, fixations[i].row);
-    const cv::Scalar& colour = colour_of(fixations, i + 1);
+    const cv::Scalar colour = mark_colour(attention, i);
     cv::circle(picture, centre, radius, kShadow, cv::FILLED, cv::LINE_AA);
     cv::circle(picture, centre, radius, colour, line, cv::LINE_AA);
-    draw_label(picture, std::to_string(i + 1), centre, size, colour);
+    const bool looked_at = attention.sequence && attention.sequence->gaze == fixations[i].id;
+    if (looked_at) cv::circle(picture, centre, cvRound(17 * size), kMark, 2 * line, cv::LINE_AA);
+    draw_label(picture, std::to_string(attention.sequence ? fixations[i].id : static_cast<int>(i) + 1),
+               centre, size, colour);
   }
 }
 
@@ -173,10 +180,22 @@ void blend_map(cv::Mat3b& picture, const cv::Mat1b& strength, const MapStyle& st
   }
 }
 
+cv::Scalar object_colour(int id) {
+  constexpr double kGoldenTurn = 0.61803398875, kHues = 180;  // OpenCV's hues of 8 bits
+  const double turn = id * kGoldenTurn;
+  const cv::Mat3b hsv(
+      1, 1,
+      cv::Vec3b(cv::saturate_cast<std::uint8_t>(std::floor((turn - std::floor(turn)) * kHues)), 170, 255));
+  cv::Mat3b bgr;
+  cv::cvtColor(hsv, bgr, cv::COLOR_HSV2BGR);
+  return {static_cast<double>(bgr(0, 0)[0]), static_cast<double>(bgr(0, 0)[1]),
+          static_cast<double>(bgr(0, 0)[2])};
+}
+
 void draw_attention(cv::Mat3b& picture, const Attention& attention, const OverlayStyle& style) {
   if (style.outlines) draw_outlines(picture, attention);
-  if (style.path) draw_path(picture, attention.fixations);
-  if (style.marks) draw_marks(picture, attention.fixations);
+  if (style.path && !attention.sequence) draw_path(picture, attention.fixations);
+  if (style.marks) draw_marks(picture, attention);
 }
 
 cv::Mat3b draw_overlay(const Frame& frame, const cv::Mat1f& saliency, const Attention& attention,

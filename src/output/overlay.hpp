@@ -69,8 +69,12 @@ cv::Mat3b draw_background(const Frame& frame, const OverlayStyle& style);
 /// std::invalid_argument if the sizes differ.
 void blend_map(cv::Mat3b& picture, const cv::Mat1b& strength, const MapStyle& style);
 
-/// Draws the fixations, scan path and outlines that the style has; the first fixation in green, doubtful ones
-/// (is_doubtful) in grey.
+/// The colour of an object over time, BGR, by its id; ids that are close to each other differ clearly in hue.
+cv::Scalar object_colour(int id);
+
+/// Draws the fixations, scan path and outlines that the style has, doubtful ones (is_doubtful) in grey. Frame
+/// by frame, fixations are numbered by rank, the first in green; over time by id, each object in its colour,
+/// without a scan path but with a ring around the object that is looked at.
 void draw_attention(cv::Mat3b& picture, const Attention& attention, const OverlayStyle& style);
 
 /// The frame, the map over it, and the numbered fixations: H x W, BGR. The same input gives the same pixels.

@@ -2,18 +2,21 @@
 
 #include <utility>
 
+#include "core/raise_flag.hpp"
+
 namespace saccade {
 
 WriterPool::WriterPool(int threads, std::function<void(const Result&)> write) : write_(std::move(write)) {
-  for (int i = 0; i < threads; ++i) threads_.emplace_back([this] { work(); });
+  try {
+    for (int i = 0; i < threads; ++i) threads_.emplace_back([this] { work(); });
+  } catch (...) {  // the system has no more threads
+    raise_flag(closed_, mutex_, changed_);
+    throw;
+  }
 }
 
 WriterPool::~WriterPool() {
-  {
-    const std::lock_guard lock(mutex_);
-    closed_ = true;
-  }
-  changed_.notify_all();
+  raise_flag(closed_, mutex_, changed_);
   threads_.clear();  // joins
 }
 

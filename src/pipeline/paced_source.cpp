@@ -12,6 +12,8 @@ using std::chrono::duration_cast;
 using std::chrono::microseconds;
 
 constexpr std::int64_t kLongestGap_us = 2'000'000;
+constexpr std::int64_t kUnknown = std::numeric_limits<std::int64_t>::max();
+constexpr std::int64_t kFarthest = std::int64_t{1} << 39;  // no recording has so many frames
 constexpr double kUsualRate_hz = 30;
 constexpr std::chrono::milliseconds kLateness{100};  // a greater delay is not made up for
 
@@ -25,7 +27,7 @@ PacedSource::PacedSource(std::unique_ptr<FrameSource> source, std::shared_ptr<Pl
       clock_(clock ? std::move(clock) : std::make_shared<PlayClock>()) {
   if (range_.start < 0 || range_.every < 1 || range_.limit < 0)
     throw std::invalid_argument("PacedSource: start >= 0, every >= 1 and limit >= 0 expected");
-  end_ = info().frame_count.value_or(std::numeric_limits<std::int64_t>::max());
+  end_ = info().frame_count.value_or(kUnknown);
   if (range_.limit > 0 && range_.limit <= (end_ - range_.start) / range_.every)
     end_ = range_.start + range_.limit * range_.every;
   next_ = range_.start;
@@ -112,6 +114,8 @@ ReadResult PacedSource::read_recorded(Lock& lock, Frame& frame, Time deadline) {
 void PacedSource::go_to_wanted() {
   PlaybackControls& p = *playback_;
   const std::int64_t last = range_.start + (end_ - 1 - range_.start) / range_.every * range_.every;
+  to_end_ = end_ == kUnknown && *p.wanted_ >= kFarthest;
+  if (to_end_) return seek_unknown_end();
   const std::int64_t wanted = std::clamp(*std::exchange(p.wanted_, std::nullopt), range_.start, last);
   const std::int64_t index = range_.start + (wanted - range_.start) / range_.every * range_.every;
   going_ = true;
@@ -121,6 +125,15 @@ void PacedSource::go_to_wanted() {
   has_ahead_ = false;
   at_next_ = at_next_ && next_ == index;
   next_ = index;
+}
+
+// The end is found by reading up to it; the last frame is the wanted one then.
+void PacedSource::seek_unknown_end() {
+  PlaybackControls& p = *playback_;
+  p.wanted_.reset();
+  going_ = true;
+  p.rebase_ = true;
+  has_ahead_ = false;
 }
 
 // Reads the next frame of the range ahead, without the lock. Returns `frame` if it was read, or if the source
@@ -133,7 +146,8 @@ ReadResult PacedSource::fetch(Lock& lock) {
   lock.lock();
   switch (result.status) {
     case ReadStatus::frame:
-      has_ahead_ = any_usable_ = true;
+      has_ahead_ = !to_end_;
+      any_usable_ = true;
       next_ += range_.every;
       break;
     case ReadStatus::rejected:
@@ -150,6 +164,7 @@ ReadResult PacedSource::fetch(Lock& lock) {
       break;
     case ReadStatus::end:  // the recording has fewer frames than announced
       end_ = next_;
+      if (std::exchange(to_end_, false)) playback_->wanted_ = end_ - 1;
       result.status = ReadStatus::frame;
       break;
     case ReadStatus::timeout:

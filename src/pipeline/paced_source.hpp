@@ -37,6 +37,7 @@ class PacedSource final : public FrameSource {
   ReadResult read_live(Lock& lock, Frame& frame, Time deadline);
   ReadResult read_recorded(Lock& lock, Frame& frame, Time deadline);
   void go_to_wanted();
+  void seek_unknown_end();
   ReadResult fetch(Lock& lock);
   ReadResult turn_at_end();
   bool is_due(Time& when);
@@ -53,6 +54,7 @@ class PacedSource final : public FrameSource {
   bool has_ahead_ = false;   // ahead_ has been read and waits until it is due
   bool has_last_ = false;    // last_ is the frame given last
   bool going_ = true;        // the next frame is given at once, whatever its time, and in a pause too
+  bool to_end_ = false;      // reads on, without giving frames, to a last frame whose index is not known yet
   bool any_usable_ = false;  // since the start of this turn of the loop
   Frame ahead_, last_;
   Time last_due_{}, due_{};   // of the frame given last, of the one read ahead

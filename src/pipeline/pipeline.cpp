@@ -4,6 +4,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "core/error.hpp"
+
 namespace saccade {
 namespace {
 
@@ -41,7 +43,16 @@ Pipeline::Pipeline(std::unique_ptr<FrameSource> source, std::unique_ptr<FramePro
   // With `newest`, two slots are in use from the start: one in the mailbox, one in capture.
   for (std::size_t i = keeps_newest() ? 2 : 0; i < slots_.size(); ++i) free_.push(slots_[i].get());
   compute_thread_ = std::jthread([this] { compute(); });
-  capture_thread_ = std::jthread([this] { capture(); });
+  try {
+    capture_thread_ = std::jthread([this] { capture(); });
+  } catch (...) {  // the system has no more threads: the other one must end before it is joined
+    stop();
+    if (keeps_newest())
+      newest_.close();
+    else
+      captured_.push(nullptr);
+    throw;
+  }
 }
 
 Pipeline::~Pipeline() {
@@ -115,8 +126,7 @@ void Pipeline::capture_frames() {
     ++taken;
     counters_.count(LedgerCounters::captured);
     if (read.status == ReadStatus::rejected) {
-      counters_.count(LedgerCounters::rejected);
-      if (options_.on_rejected) options_.on_rejected(index, read.reason);
+      reject(index, read.reason);
       continue;
     }
     slot = hand_over(slot);
@@ -145,9 +155,14 @@ Result* Pipeline::hand_over(Result* slot) {
 void Pipeline::compute() noexcept {
   Result* spare = keeps_newest() ? free_.pop() : nullptr;
   while (Result* slot = keeps_newest() ? newest_.take(spare) : captured_.pop()) {
-    if (stopping_ || !process(*slot)) {
-      counters_.count(LedgerCounters::stopped);
-      spare = slot;
+    const Processing outcome = stopping_ ? Processing::failed : process(*slot);
+    if (outcome != Processing::done) {
+      if (outcome == Processing::failed) counters_.count(LedgerCounters::stopped);
+      // The slot takes the next frame: from here with `newest`, else by way of the capture thread.
+      if (keeps_newest())
+        spare = slot;
+      else if (outcome == Processing::rejected)
+        give_back(slot);
       continue;
     }
     counters_.count(LedgerCounters::processed);
@@ -159,13 +174,24 @@ void Pipeline::compute() noexcept {
   computed_.push(nullptr);
 }
 
-bool Pipeline::process(Result& slot) noexcept {
+void Pipeline::reject(std::int64_t index, const std::string& reason) {
+  counters_.count(LedgerCounters::rejected);
+  if (options_.on_rejected) options_.on_rejected(index, reason);
+}
+
+Pipeline::Processing Pipeline::process(Result& slot) noexcept {
   try {
-    processor_->process(slot);
-    return true;
+    try {
+      processor_->process(slot);
+      return Processing::done;
+    } catch (const Error& error) {
+      if (error.status() != ExitStatus::unreadable) throw;
+      reject(slot.frame.index, error.what());
+      return Processing::rejected;
+    }
   } catch (...) {
     fail(std::current_exception());
-    return false;
+    return Processing::failed;
   }
 }
 

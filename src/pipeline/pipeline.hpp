@@ -32,7 +32,8 @@ struct PipelineOptions {
   FramePolicy policy = FramePolicy::every_frame;
   /// Frames in memory: >= 2, and >= 3 for `newest`, of which the consumer may hold all but two.
   int slots = 4;
-  /// Called on the capture thread for each frame that cannot be used.
+  /// Called for each frame that cannot be used: on the capture thread, or on the compute thread if the model
+  /// cannot use it (it throws Error, unreadable, e.g. for a frame without colour).
   std::function<void(std::int64_t index, const std::string& reason)> on_rejected;
   /// Called on the capture thread with changes of the source's state (SourceStateNotifier).
   std::function<void(const SourceState&)> on_state;
@@ -91,7 +92,9 @@ class Pipeline {
   ReadResult read_into(Result& slot);
   Result* hand_over(Result* slot);
   void compute() noexcept;
-  bool process(Result& slot) noexcept;
+  enum class Processing { done, rejected, failed };
+  Processing process(Result& slot) noexcept;
+  void reject(std::int64_t index, const std::string& reason);
   void give_back(Result* slot) noexcept;
   void fail(std::exception_ptr error) noexcept;
 

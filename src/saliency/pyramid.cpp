@@ -5,7 +5,7 @@ namespace saccade {
 void Pyramid::resize(cv::Size size) {
   if (size == size_) return;
   check_levels(size, params_);
-  size_ = size;
+  size_ = {};  // until all memory is there: after std::bad_alloc the next frame starts again
   const int reach = params_.reach();
   levels_.clear();
   bands_.clear();
@@ -21,6 +21,7 @@ void Pyramid::resize(cv::Size size) {
     if (reach >= stages_.runs_from_reach)
       scratch_.back().row_sums = RowPrefixSums(size, reach, 2 * reach + RowScratch::kPreparedRows);
   }
+  size_ = size;
 }
 
 }  // namespace saccade

@@ -37,6 +37,7 @@ std::vector<SettingSpec> make_specs() {
   std::vector<SettingSpec> specs;
   append(specs, SettingScope::model, model_setting_specs(), whole);
   append(specs, SettingScope::attention, attention_setting_specs(), whole);
+  append(specs, SettingScope::tracking, tracking_setting_specs(), whole);
   append(specs, SettingScope::frames, frame_setting_specs(), whole);
   append(specs, SettingScope::sensor, sensor_setting_specs(), sensor);
   append(specs, SettingScope::output, output_setting_specs(), whole);
@@ -63,8 +64,8 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 }  // namespace
 
 std::string_view title(SettingScope scope) {
-  constexpr std::array<std::string_view, 6> kTitles = {"Model",  "Attention", "Frames",
-                                                       "Sensor", "Output",    "Program"};
+  constexpr std::array<std::string_view, 7> kTitles = {
+      "Model", "Attention", "Attention over time", "Frames", "Sensor", "Output", "Program"};
   return kTitles[static_cast<std::size_t>(scope)];
 }
 

@@ -11,13 +11,19 @@
 #include "output/output_settings.hpp"
 #include "pipeline/frame_settings.hpp"
 #include "settings/program_settings.hpp"
+#include "tracking/tracking_settings.hpp"
 
 namespace saccade {
 
 /// Everything a user can set, with its default. Each part belongs to the room that it configures, and that
 /// room's functions take their own part. The same names are the options of the command line and the keys of a
 /// TOML file; setting_specs() is the one list of them.
-struct Settings : ModelSettings, AttentionSettings, FrameSettings, OutputSettings, ProgramSettings {
+struct Settings : ModelSettings,
+                  AttentionSettings,
+                  TrackingSettings,
+                  FrameSettings,
+                  OutputSettings,
+                  ProgramSettings {
   SensorSettings sensor;  ///< a member, since names such as `mode` say too little without it
 };
 
@@ -27,6 +33,7 @@ struct Settings : ModelSettings, AttentionSettings, FrameSettings, OutputSetting
 enum class SettingScope {
   model,      ///< changes maps
   attention,  ///< changes attention points
+  tracking,   ///< changes how attention holds over time
   frames,     ///< selects or describes frames
   sensor,     ///< of live sources
   output,     ///< what is written

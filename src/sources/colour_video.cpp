@@ -2,25 +2,37 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <mutex>
 #include <utility>
 
+#include <opencv2/core/utils/logger.hpp>
+
 #include "core/error.hpp"
-#include "sources/depth_video.hpp"
+#include "sources/video_file.hpp"
 
 namespace saccade {
 
-ColourVideo::ColourVideo(std::string name, int backend, double rate_hz)
-    : name_(std::move(name)), backend_(backend), rate_hz_(rate_hz) {
+void quieten_video_libraries() {
+  static std::once_flag once;
+  std::call_once(once, [] {
+    ::setenv("OPENCV_FFMPEG_LOGLEVEL", "-8", 0);
+    const std::string options = std::string("format_whitelist;") + kVideoFormats + "|protocol_whitelist;file";
+    ::setenv("OPENCV_FFMPEG_CAPTURE_OPTIONS", options.c_str(), 1);
+    cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
+  });
+}
+
+ColourVideo::ColourVideo(std::string name, double rate_hz) : name_(std::move(name)), rate_hz_(rate_hz) {
   quieten_video_libraries();
   open();
   if (ahead_.empty())
     throw unreadable("no image in this video can be read", name_, "the file may be truncated or not a video");
   const double rate = capture_.get(cv::CAP_PROP_FPS);
-  if (backend_ != cv::CAP_IMAGES && std::isfinite(rate) && rate > 0) rate_hz_ = rate;
+  if (std::isfinite(rate) && rate > 0) rate_hz_ = rate;
 }
 
 void ColourVideo::open() {
-  capture_ = cv::VideoCapture(name_, backend_);
+  capture_ = cv::VideoCapture(name_, cv::CAP_FFMPEG);
   count_ = 0;
   now_.release();
   ahead_.release();
@@ -35,7 +47,7 @@ void ColourVideo::advance() {
     return;
   }
   const double nominal_us = static_cast<double>(count_++) * 1e6 / rate_hz_;
-  const double container_us = backend_ == cv::CAP_IMAGES ? 0 : 1000 * capture_.get(cv::CAP_PROP_POS_MSEC);
+  const double container_us = 1000 * capture_.get(cv::CAP_PROP_POS_MSEC);
   ahead_us_ = std::llround(container_us > 0 ? container_us : nominal_us);
 }
 

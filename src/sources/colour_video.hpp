@@ -8,11 +8,15 @@
 
 namespace saccade {
 
-/// Colour images of a video file or a numbered sequence, in the order of their times.
+/// Keeps OpenCV's video libraries from writing to standard error, and from files that a video names:
+/// playlists are no videos.
+void quieten_video_libraries();
+
+/// Colour images of a video file, in the order of their times.
 class ColourVideo {
  public:
-  /// `backend` as in cv::VideoCapture. Throws Error (unreadable) without a first image.
-  ColourVideo(std::string name, int backend, double rate_hz);
+  /// `rate_hz`: where the file names none. Throws Error (unreadable) without a first image.
+  ColourVideo(std::string name, double rate_hz);
 
   cv::Size size() const { return ahead_.size(); }
   double rate_hz() const { return rate_hz_; }
@@ -32,7 +36,6 @@ class ColourVideo {
   void advance();
 
   std::string name_;
-  int backend_;
   double rate_hz_;
   cv::VideoCapture capture_;
   std::int64_t count_ = 0;  // images read

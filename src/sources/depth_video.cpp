@@ -2,202 +2,228 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <cstdlib>
-#include <mutex>
+#include <new>
+#include <optional>
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include <fmt/format.h>
-#include <opencv2/core/utils/logger.hpp>
-#include <opencv2/videoio.hpp>
+
+extern "C" {
+#include <libavutil/crc.h>
+#include <libavutil/frame.h>
+#include <libavutil/pixfmt.h>
+}
 
 #include "core/error.hpp"
+#include "core/image_size.hpp"
 #include "core/png.hpp"
+#include "sources/video_file.hpp"
 
 namespace saccade {
 namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* kExactRoutes =
-    "depth must be FFV1 gray16le in Matroska, 16-bit PNGs in Matroska, or rawvideo gray16le in .nut";
+    "depth must be FFV1 gray16le, 16-bit PNGs or rawvideo gray16le, in Matroska, AVI, MOV or NUT";
 
-constexpr int code(char a, char b, char c, char d) { return a | b << 8 | c << 16 | d << 24; }
-constexpr int kGrey16Little = code('Y', '1', 0, 16), kGrey16Big = code(16, 0, '1', 'Y');
-constexpr int kFfv1 = code('F', 'F', 'V', '1');
+using Bytes = std::span<const std::uint8_t>;
 
-// A file's packets, not decoded.
-cv::VideoCapture open_packets(const fs::path& path) {
-  return cv::VideoCapture(path.string(), cv::CAP_FFMPEG, {cv::CAP_PROP_FORMAT, -1});
+Bytes bytes_of(const AVPacket& packet) {
+  return {packet.data, packet.size > 0 ? static_cast<std::size_t>(packet.size) : 0};
 }
 
-std::span<const std::uint8_t> bytes_of(const cv::Mat& packet) {
-  return {packet.data, packet.total() * packet.elemSize()};
-}
-
-bool is_png(std::span<const std::uint8_t> packet) {
+bool is_png(Bytes packet) {
   constexpr std::array<std::uint8_t, 4> kSignature = {0x89, 'P', 'N', 'G'};
   return packet.size() > 8 && std::equal(kSignature.begin(), kSignature.end(), packet.begin());
 }
 
-int as_code(double property) { return static_cast<int>(static_cast<std::uint32_t>(property)); }
-
-int upper_case(int fourcc) {
-  for (int shift = 0; shift < 32; shift += 8)
-    if (const int letter = fourcc >> shift & 0xff; letter >= 'a' && letter <= 'z') fourcc -= 0x20 << shift;
-  return fourcc;
-}
-
-// Depth from an OpenCV capture, in a form that derived classes decode.
-class CaptureVideo : public DepthVideo {
+// Images of a file's packets, which derived classes decode.
+class PacketVideo : public DepthVideo {
  public:
+  explicit PacketVideo(const fs::path& path) : file_(path) {}
+
+  cv::Size size() const final { return file_.size(); }
+  double rate_hz() const final { return file_.rate_hz(); }
+  bool has_checksums() const override { return file_.has_checksums(); }
+
   bool read(cv::Mat1w& depth, std::int64_t& time_us) final {
-    if (!capture_.read(buffer_) || buffer_.empty()) return false;
-    time_us = time_of(count_++);
-    decode(depth);
-    if (depth.size() != size_)
+    const auto next = file_.next();
+    if (!next) return false;
+    time_us = next->time_us;
+    if (!next->problem.empty() && (next->packet == nullptr || !proves_itself(*next->packet))) {
+      lose_image();
+      throw std::runtime_error(next->problem);
+    }
+    decode(*next->packet, depth);
+    if (depth.size() != size())
       throw std::runtime_error(
-          fmt::format("{}x{} instead of {}x{}", depth.cols, depth.rows, size_.width, size_.height));
+          fmt::format("{}x{} instead of {}x{}", depth.cols, depth.rows, size().width, size().height));
     return true;
   }
-  bool skip() final { return capture_.grab() && ++count_ > 0; }
+
+  bool skip() override { return file_.next().has_value(); }
 
  protected:
-  CaptureVideo(cv::VideoCapture capture, cv::Size size) : capture_(std::move(capture)) {
-    size_ = size;
-    const double rate = capture_.get(cv::CAP_PROP_FPS);
-    if (std::isfinite(rate) && rate > 0) rate_hz_ = rate;
-  }
-  // Fills `depth` from buffer_, or throws std::runtime_error.
-  virtual void decode(cv::Mat1w& depth) = 0;
-  virtual std::int64_t time_of(std::int64_t index) {
-    return std::llround(static_cast<double>(index) * 1e6 / rate_hz_);
-  }
-
-  cv::VideoCapture capture_;
-  cv::Mat buffer_;
+  const VideoFile& file() const { return file_; }
 
  private:
-  std::int64_t count_ = 0;
+  // Fills `depth`, or throws std::runtime_error.
+  virtual void decode(const AVPacket& packet, cv::Mat1w& depth) = 0;
+  // Whether decode() would notice damage of this packet, so that a checksum of the container, which covers
+  // many, does not matter.
+  virtual bool proves_itself(const AVPacket& packet) const = 0;
+  // This image will not be decoded.
+  virtual void lose_image() {}
+
+  VideoFile file_;
 };
 
-class PngPackets final : public CaptureVideo {
+class PngVideo final : public PacketVideo {
  public:
-  PngPackets(cv::VideoCapture capture, cv::Size size) : CaptureVideo(std::move(capture), size) {}
+  using PacketVideo::PacketVideo;
+  bool has_checksums() const override { return true; }
 
  private:
-  void decode(cv::Mat1w& depth) override {
-    const cv::Mat image = decode_png(bytes_of(buffer_));
+  void decode(const AVPacket& packet, cv::Mat1w& depth) override {
+    const cv::Mat image = decode_png(bytes_of(packet));
     if (image.type() != CV_16UC1) throw std::runtime_error("not a 16-bit grey PNG");
     image.copyTo(depth);
   }
+  bool proves_itself(const AVPacket&) const override { return true; }
 };
 
-class RawPackets final : public CaptureVideo {
+class RawVideo final : public PacketVideo {
  public:
-  RawPackets(cv::VideoCapture capture, cv::Size size) : CaptureVideo(std::move(capture), size) {}
+  using PacketVideo::PacketVideo;
 
  private:
-  void decode(cv::Mat1w& depth) override {
-    const auto bytes = bytes_of(buffer_);
-    if (bytes.size() != 2 * static_cast<std::size_t>(size_.area()))
+  void decode(const AVPacket& packet, cv::Mat1w& depth) override {
+    const Bytes bytes = bytes_of(packet);
+    if (bytes.size() != 2 * static_cast<std::size_t>(size().area()))
       throw std::runtime_error(
-          fmt::format("{} bytes for {}x{} pixels", bytes.size(), size_.width, size_.height));
-    depth.create(size_);
-    std::copy(bytes.begin(), bytes.end(), depth.data);
+          fmt::format("{} bytes for {}x{} pixels", bytes.size(), size().width, size().height));
+    depth.create(size());
+    std::ranges::copy(bytes, depth.data);
   }
+  bool proves_itself(const AVPacket&) const override { return false; }
 };
 
-class DecodedFrames final : public CaptureVideo {
+// An image may depend on those before it, back to the last key frame.
+class Ffv1Video final : public PacketVideo {
  public:
-  // `clock` reads the same frames, for their times: those of a GStreamer pipeline run ahead.
-  DecodedFrames(cv::VideoCapture capture, cv::Size size, cv::VideoCapture clock = {})
-      : CaptureVideo(std::move(capture), size), clock_(std::move(clock)) {}
+  explicit Ffv1Video(const fs::path& path) : PacketVideo(path), frame_(av_frame_alloc()) {
+    const AVCodec* codec = avcodec_find_decoder(AV_CODEC_ID_FFV1);
+    context_.reset(codec == nullptr ? nullptr : avcodec_alloc_context3(codec));
+    if (!frame_ || !context_) throw std::bad_alloc();
+    if (avcodec_parameters_to_context(context_.get(), &file().codec()) < 0) throw std::bad_alloc();
+    context_->thread_count = 1;  // so that its messages come on this thread
+    context_->max_pixels = kMostPixels;
+    context_->err_recognition = AV_EF_CRCCHECK;
+    VideoMessages messages;
+    const int code = avcodec_open2(context_.get(), codec, nullptr);
+    if (code == AVERROR(ENOMEM)) throw std::bad_alloc();
+    const auto error = messages.take_error();
+    if (code < 0)
+      throw unreadable("this FFV1 video cannot be decoded: " + error.value_or("damaged header"),
+                       path.string(), "the file may be damaged");
+  }
+
+  // From version 2 on the stream has a header of its own, and by default checksums.
+  bool has_checksums() const override {
+    return file().codec().extradata_size > 0 || PacketVideo::has_checksums();
+  }
+
+  bool skip() override {
+    try {
+      cv::Mat1w unused;
+      std::int64_t time_us = 0;
+      return read(unused, time_us);
+    } catch (const std::runtime_error&) {
+      return true;
+    }
+  }
 
  private:
-  void decode(cv::Mat1w& depth) override {
-    if (buffer_.type() != CV_16UC1) throw std::runtime_error("not 16-bit grey");
-    buffer_.copyTo(depth);
-  }
-  std::int64_t time_of(std::int64_t index) override {
-    while (clocked_ <= index && clock_.grab()) ++clocked_;
-    return clocked_ > index ? std::llround(1000 * clock_.get(cv::CAP_PROP_POS_MSEC))
-                            : CaptureVideo::time_of(index);
+  struct FreeContext {
+    void operator()(AVCodecContext* context) const { avcodec_free_context(&context); }
+  };
+  struct FreeFrame {
+    void operator()(AVFrame* frame) const { av_frame_free(&frame); }
+  };
+
+  void lose_image() override { incomplete_ = true; }
+
+  // A packet is a row of slices. If the stream has checksums, each slice ends with its length (3 bytes), a
+  // status and the checksum.
+  bool proves_itself(const AVPacket& packet) const override {
+    constexpr std::size_t kTrailer = 8;
+    Bytes rest = bytes_of(packet);
+    while (!rest.empty()) {
+      if (rest.size() < kTrailer) return false;
+      const Bytes trailer = rest.last(kTrailer);
+      const std::size_t length =
+          static_cast<std::size_t>(trailer[0]) << 16 | static_cast<std::size_t>(trailer[1]) << 8 | trailer[2];
+      if (length + kTrailer > rest.size()) return false;
+      const Bytes slice = rest.last(length + kTrailer);
+      if (av_crc(av_crc_get_table(AV_CRC_32_IEEE), 0, slice.data(), slice.size()) != 0) return false;
+      rest = rest.first(rest.size() - slice.size());
+    }
+    return true;
   }
 
-  cv::VideoCapture clock_;
-  std::int64_t clocked_ = 0;  // frames read from clock_
+  void decode(const AVPacket& packet, cv::Mat1w& depth) override {
+    if ((packet.flags & AV_PKT_FLAG_KEY) != 0) incomplete_ = false;
+    if (incomplete_) throw std::runtime_error("it depends on an image that is lost or damaged");
+    incomplete_ = true;  // until it is known to be sound
+    VideoMessages messages;
+    int code = avcodec_send_packet(context_.get(), &packet);
+    if (code >= 0) code = avcodec_receive_frame(context_.get(), frame_.get());
+    if (code == AVERROR(ENOMEM)) throw std::bad_alloc();
+    const auto error = messages.take_error();
+    if (code < 0 || error)
+      throw std::runtime_error("damaged FFV1: " + error.value_or("it cannot be decoded"));
+    copy_image(depth);
+    incomplete_ = false;
+  }
+
+  void copy_image(cv::Mat1w& depth) const {
+    if (frame_->format != AV_PIX_FMT_GRAY16LE) throw std::runtime_error("not 16-bit grey");
+    const cv::Mat image(frame_->height, frame_->width, CV_16UC1, frame_->data[0],
+                        static_cast<std::size_t>(frame_->linesize[0]));
+    image.copyTo(depth);
+  }
+
+  std::unique_ptr<AVCodecContext, FreeContext> context_;
+  std::unique_ptr<AVFrame, FreeFrame> frame_;
+  bool incomplete_ = false;  // an image since the last key frame is missing
 };
 
-std::unique_ptr<DepthVideo> open_ffv1(const fs::path& path, cv::Size size) {
-  std::string quoted;
-  for (const char c : path.string()) {
-    if (c == '"' || c == '\\') quoted += '\\';
-    quoted += c;
-  }
-  cv::VideoCapture capture(fmt::format("filesrc location=\"{}\" ! matroskademux ! avdec_ffv1 ! "
-                                       "video/x-raw,format=GRAY16_LE ! appsink sync=false",
-                                       quoted),
-                           cv::CAP_GSTREAMER);
-  if (!capture.isOpened())
-    throw unreadable(
-        "this FFV1 video cannot be read as 16-bit grey", path.string(),
-        "GStreamer does it with the packages gstreamer1.0-plugins-good and gstreamer1.0-libav, from "
-        "Matroska");
-  return std::make_unique<DecodedFrames>(std::move(capture), size,
-                                         cv::VideoCapture(path.string(), cv::CAP_FFMPEG));
-}
+bool is_grey16(int format) { return format == AV_PIX_FMT_GRAY16LE || format == AV_PIX_FMT_GRAY16BE; }
 
 }  // namespace
 
-void quieten_video_libraries() {
-  static std::once_flag once;
-  std::call_once(once, [] {
-    ::setenv("OPENCV_FFMPEG_LOGLEVEL", "-8", 0);
-    cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
-  });
-}
-
 std::unique_ptr<DepthVideo> open_depth_video(const fs::path& path) {
-  quieten_video_libraries();
-  cv::VideoCapture packets = open_packets(path);
-  cv::Mat first;
-  if (!packets.isOpened() || !packets.read(first))
+  VideoFile file(path);
+  const auto first = file.next();
+  if (!first || first->packet == nullptr)
     throw unreadable("no video that can be read", path.string(), "the file may be truncated or not a video");
-  const cv::Size size(static_cast<int>(packets.get(cv::CAP_PROP_FRAME_WIDTH)),
-                      static_cast<int>(packets.get(cv::CAP_PROP_FRAME_HEIGHT)));
-  const int codec = upper_case(as_code(packets.get(cv::CAP_PROP_FOURCC)));
-  const int pixels = as_code(packets.get(cv::CAP_PROP_CODEC_PIXEL_FORMAT));
-  if (size.width > kLargestSide || size.height > kLargestSide)
-    throw unreadable(fmt::format("images of {}x{} are too large", size.width, size.height), path.string(),
-                     fmt::format("at most {} pixels a side", kLargestSide));
-  if (is_png(bytes_of(first))) {
-    if (pixels == kGrey16Big || pixels == kGrey16Little)
-      return std::make_unique<PngPackets>(open_packets(path), size);
-  } else if (codec == kGrey16Little) {
-    return std::make_unique<RawPackets>(open_packets(path), size);
-  } else if (codec == kFfv1 && pixels == kGrey16Little) {
-    return open_ffv1(path, size);
-  } else if (pixels == kGrey16Little || pixels == kGrey16Big) {
-    throw unreadable("16-bit grey in a codec that would be flattened to 8 bits", path.string(), kExactRoutes);
+  const AVCodecParameters& codec = file.codec();
+  const bool png = is_png(bytes_of(*first->packet));
+  if (is_grey16(codec.format)) {
+    if (png) return std::make_unique<PngVideo>(path);
+    if (codec.format == AV_PIX_FMT_GRAY16LE && codec.codec_id == AV_CODEC_ID_RAWVIDEO)
+      return std::make_unique<RawVideo>(path);
+    if (codec.format == AV_PIX_FMT_GRAY16LE && codec.codec_id == AV_CODEC_ID_FFV1)
+      return std::make_unique<Ffv1Video>(path);
+    throw unreadable("16-bit grey in a codec that need not keep every bit", path.string(), kExactRoutes);
   }
   if (path.stem().string().ends_with("_depth"))
     throw unreadable("this depth video has 8 bits a pixel, or would be flattened to 8", path.string(),
                      kExactRoutes);
   return nullptr;
-}
-
-std::unique_ptr<DepthVideo> open_depth_images(const std::string& pattern) {
-  quieten_video_libraries();
-  cv::VideoCapture capture(pattern, cv::CAP_IMAGES);
-  cv::Mat first;
-  if (!capture.isOpened() || !capture.read(first) || first.empty())
-    throw unreadable("no images of that pattern", pattern,
-                     "e.g. depth_%04d.png for depth_0000.png, depth_0001.png, ..");
-  if (first.type() != CV_16UC1)
-    throw unreadable("the images are not 16-bit grey depth", pattern, "16-bit grey PNGs in mm are expected");
-  return std::make_unique<DecodedFrames>(cv::VideoCapture(pattern, cv::CAP_IMAGES), first.size());
 }
 
 }  // namespace saccade

@@ -7,12 +7,14 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
 
 #include "core/error.hpp"
 #include "core/file.hpp"
+#include "core/image_size.hpp"
 #include "core/outcome.hpp"
 #include "core/png.hpp"
+#include "oni/jpeg.hpp"
 #include "sources/meta_json.hpp"
 #include "sources/pcd.hpp"
 
@@ -31,6 +33,12 @@ Outcome usable(const PngHeader& header) {
     return Outcome::failure(
         fmt::format("{}x{} is smaller than {} pixels a side", width, height, kSmallestSide));
   return Outcome::success();
+}
+
+// More than the largest image takes as a PNG, or as a cloud of 48 bytes a point.
+std::vector<std::uint8_t> read_image_file(const fs::path& path) {
+  constexpr std::uintmax_t kLargest = 50 * kMostPixels;
+  return read_file(path, kLargest);
 }
 
 bool is_cloud(const fs::path& path) { return ending_of(path) == ".pcd"; }
@@ -57,17 +65,19 @@ std::string plain(cv::Size size) { return fmt::format("{}x{}", size.width, size.
 
 class FolderSource final : public FrameSource {
  public:
-  FolderSource(const SourceInput& input, std::string_view kind, FolderListing listing)
+  FolderSource(const SourceInput& input, const fs::path& folder, std::string_view kind, FolderListing listing)
       : listing_(std::move(listing)) {
     info_.uri = input.uri;
     info_.kind = kind;
     info_.size = first_size();
     info_.frame_count = static_cast<std::int64_t>(listing_.entries.size());
     info_.rate_hz = listing_.rate_hz;
+    info_.sequence = listing_.sequence;
     info_.notes = listing_.notes;
-    auto camera = read_meta(input.path);
+    auto camera = read_meta(folder);
     if (!camera) camera = camera_of_cloud();
     info_.intrinsics = camera ? *camera : Intrinsics::guess_for(info_.size);
+    if (listing_.scales_colour) note_scaled_colour();
   }
 
   const SourceInfo& info() const override { return info_; }
@@ -82,6 +92,7 @@ class FolderSource final : public FrameSource {
     frame.name = entry.name;
     frame.intrinsics = info_.intrinsics;
     frame.truth.normals.release();
+    frame.truth.camera_to_world = entry.camera_to_world;
     fs::path current = entry.depth;
     try {
       read_depth(current, frame);
@@ -107,18 +118,32 @@ class FolderSource final : public FrameSource {
   cv::Size first_size() const {
     std::optional<std::string> first_problem;
     for (const FolderEntry& entry : listing_.entries) try {
-        return depth_size(entry.depth, read_file(entry.depth));
+        return depth_size(entry.depth, read_image_file(entry.depth));
       } catch (const std::runtime_error& error) {
         if (!first_problem) first_problem = entry.depth.filename().string() + ": " + error.what();
       }
     throw unreadable("no usable depth image; " + first_problem.value_or(""), info_.uri,
-                     "depth must be 16-bit grey PNG in mm or an organised PCD, 8 to 8192 pixels a side");
+                     "depth must be 16-bit grey PNG in mm or an organised PCD, at least 8 pixels a side");
+  }
+
+  // By the first colour image that can be read.
+  void note_scaled_colour() {
+    for (const FolderEntry& entry : listing_.entries) try {
+        if (entry.colour.empty()) continue;
+        const cv::Size size = colour_size(entry.colour, read_image_file(entry.colour));
+        if (size != info_.size)
+          info_.notes.push_back(
+              fmt::format("colour of {} is scaled to the depth's {}", plain(size), plain(info_.size)));
+        return;
+      } catch (const std::runtime_error&) {
+        // The frame is rejected when it is read.
+      }
   }
 
   std::optional<Intrinsics> camera_of_cloud() {
     if (listing_.cloud.empty()) return std::nullopt;
     try {
-      return read_pcd(read_file(listing_.cloud)).intrinsics;
+      return read_pcd(read_image_file(listing_.cloud)).intrinsics;
     } catch (const std::runtime_error& error) {
       info_.notes.push_back(fmt::format("{}: {}", listing_.cloud.filename().string(), error.what()));
       return std::nullopt;
@@ -126,7 +151,7 @@ class FolderSource final : public FrameSource {
   }
 
   void read_depth(const fs::path& path, Frame& frame) const {
-    const auto bytes = read_file(path);
+    const auto bytes = read_image_file(path);
     const cv::Size size = depth_size(path, bytes);
     if (size != info_.size)
       throw std::runtime_error(fmt::format("{}, but the first frame is {}", plain(size), plain(info_.size)));
@@ -141,29 +166,53 @@ class FolderSource final : public FrameSource {
       throw std::runtime_error(fmt::format("{}, but the depth is {}", plain(size), plain(info_.size)));
   }
 
-  void read_colour(const fs::path& path, Frame& frame) const {
+  // The size is checked before the image is decoded.
+  void read_colour(const fs::path& path, Frame& frame) {
     frame.colour.release();
     if (path.empty()) return;
-    const auto bytes = read_file(path);
-    cv::Mat image;
-    if (ending_of(path) == ".png") {
-      check_size(read_png_header(bytes).size);
-      image = decode_png(bytes);
-      if (image.depth() == CV_16U) image.convertTo(image, CV_8U, 1.0 / 256);
-      if (image.channels() == 1) cv::merge(std::vector<cv::Mat>(3, image), image);
-    } else if (!bytes.empty()) {
-      image = cv::imdecode(bytes, cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION);
-    }
-    if (image.empty()) throw std::runtime_error("not a sound image");
-    check_size(image.size());
+    const auto bytes = read_image_file(path);
+    const cv::Size size = colour_size(path, bytes);
+    if (!listing_.scales_colour) check_size(size);
+    cv::Mat3b image = is_png(path) ? decode_colour_png(bytes) : decode_jpeg(bytes, size);
+    if (size != info_.size) cv::resize(image, image, info_.size, 0, 0, cv::INTER_AREA);
     frame.colour = image;
+  }
+
+  static cv::Mat3b decode_colour_png(std::span<const std::uint8_t> bytes) {
+    cv::Mat image = decode_png(bytes);
+    if (image.depth() == CV_16U) image.convertTo(image, CV_8U, 1.0 / 256);
+    if (image.channels() == 1) cv::merge(std::vector<cv::Mat>(3, image), image);
+    return image;
+  }
+
+  static bool is_png(const fs::path& path) { return ending_of(path) == ".png"; }
+
+  static cv::Size colour_size(const fs::path& path, std::span<const std::uint8_t> bytes) {
+    if (is_png(path)) return read_png_header(bytes).size;
+    const auto size = jpeg_size(bytes);
+    if (!size) throw std::runtime_error("not a JPEG image");
+    check_image_size(size->width, size->height);
+    return *size;
+  }
+
+  cv::Mat3b decode_jpeg(std::span<const std::uint8_t> bytes, cv::Size size) {
+    cv::Mat3b image;
+    if (const Outcome decoded = jpeg_.decode(bytes, size, image); !decoded)
+      throw std::runtime_error(decoded.reason());
+    return image;
+  }
+
+  // A label or class image. The size is checked before it is decoded.
+  cv::Mat read_truth(const fs::path& path) const {
+    const auto bytes = read_image_file(path);
+    check_size(read_png_header(bytes).size);
+    return decode_png(bytes);
   }
 
   void read_labels(const fs::path& path, Frame& frame) const {
     frame.truth.labels.release();
     if (path.empty()) return;
-    const cv::Mat image = decode_png(read_file(path));
-    check_size(image.size());
+    const cv::Mat image = read_truth(path);
     if (image.channels() != 1) {
       if (!listing_.colours_are_labels) throw std::runtime_error("labels must be grey or palette");
       frame.truth.labels = labels_of_colours(image);
@@ -175,22 +224,22 @@ class FolderSource final : public FrameSource {
   void read_classes(const fs::path& path, Frame& frame) const {
     frame.truth.classes.release();
     if (path.empty()) return;
-    const cv::Mat image = decode_png(read_file(path));
-    check_size(image.size());
+    const cv::Mat image = read_truth(path);
     if (image.channels() != 1) throw std::runtime_error("classes must be grey or palette");
     image.convertTo(frame.truth.classes, CV_16U);
   }
 
   FolderListing listing_;
   SourceInfo info_;
+  JpegCodec jpeg_;
   std::int64_t next_ = 0;
 };
 
 }  // namespace
 
-std::unique_ptr<FrameSource> open_folder(const SourceInput& input, std::string_view kind,
-                                         FolderListing listing) {
-  return std::make_unique<FolderSource>(input, kind, std::move(listing));
+std::unique_ptr<FrameSource> open_folder(const SourceInput& input, const fs::path& folder,
+                                         std::string_view kind, FolderListing listing) {
+  return std::make_unique<FolderSource>(input, folder, kind, std::move(listing));
 }
 
 }  // namespace saccade

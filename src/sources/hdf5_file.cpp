@@ -4,8 +4,15 @@
 
 namespace saccade {
 
+namespace {
+
+// A library that was built for threads prints its messages on each thread on which this was not called.
+void silence_messages() { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
+
+}  // namespace
+
 Hdf5Id open_hdf5(const std::filesystem::path& path) {
-  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+  silence_messages();
   return {H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose};
 }
 
@@ -28,6 +35,7 @@ std::optional<Hdf5Images> Hdf5Images::open(const Hdf5Id& file, const std::string
 }
 
 void Hdf5Images::read(hsize_t index, hid_t type, void* target) const {
+  silence_messages();
   std::vector<hsize_t> begin(shape_.size(), 0), count = shape_;
   begin.at(0) = index;
   count.at(0) = 1;

@@ -51,8 +51,8 @@ class Hdf5Images {
   std::vector<hsize_t> shape_;
 };
 
-/// Opens a file for reading and switches off libhdf5's own messages on standard error. An invalid identifier
-/// if it is not an HDF5 file.
+/// Opens a file for reading. libhdf5's own messages on standard error are switched off, here and in read().
+/// An invalid identifier if it is not an HDF5 file.
 Hdf5Id open_hdf5(const std::filesystem::path& path);
 
 }  // namespace saccade

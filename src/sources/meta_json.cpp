@@ -12,12 +12,13 @@ namespace saccade {
 
 std::optional<Intrinsics> read_meta(const std::filesystem::path& folder) {
   const std::filesystem::path path = folder / "meta.json";
-  if (!std::filesystem::exists(path)) return std::nullopt;
+  std::error_code code;
+  if (!std::filesystem::exists(path, code)) return std::nullopt;
   const auto broken = [&](const std::string& why) {
     return unreadable("broken meta.json: " + why, path.string(),
                       "fix or delete it; fx, fy, cx, cy in pixels are expected");
   };
-  const auto bytes = read_file(path, 256u << 20);
+  const auto bytes = read_file(path, 1u << 20);
   const auto meta = nlohmann::json::parse(bytes.begin(), bytes.end(), nullptr, /*allow_exceptions=*/false);
   if (!meta.is_object()) throw broken("not a JSON object");
   Intrinsics camera;

@@ -1,13 +1,12 @@
 #include <algorithm>
 #include <charconv>
-#include <cmath>
 #include <map>
 #include <optional>
-
-#include <fmt/format.h>
+#include <utility>
 
 #include "core/error.hpp"
-#include "sources/folder_source.hpp"
+#include "sources/numbered_frames.hpp"
+#include "sources/poses_file.hpp"
 
 namespace saccade {
 namespace fs = std::filesystem;
@@ -24,55 +23,27 @@ std::optional<std::int64_t> frame_number(const std::string& name) {
   return number;
 }
 
-fs::path first_existing(const fs::path& folder, const std::vector<std::string>& names) {
-  for (const std::string& name : names)
-    if (fs::exists(folder / name)) return folder / name;
-  return {};
-}
-
-// "4 frames are missing in the numbering: 3, 7..9"; std::nullopt if none is.
-std::optional<std::string> describe_gaps(const std::map<std::int64_t, FolderEntry>& found) {
-  std::vector<std::string> gaps;
-  std::int64_t missing = 0, expected = found.begin()->first;
-  for (const auto& [number, entry] : found) {
-    if (number > expected) {
-      missing += number - expected;
-      gaps.push_back(number - expected == 1 ? fmt::format("{}", expected)
-                                            : fmt::format("{}..{}", expected, number - 1));
-    }
-    expected = number + 1;
-  }
-  if (gaps.empty()) return std::nullopt;
-  constexpr std::size_t kShown = 8;
-  const std::size_t shown = std::min(kShown, gaps.size());
-  std::vector<std::string> first(gaps.begin(), gaps.begin() + static_cast<std::ptrdiff_t>(shown));
-  return fmt::format("{} frame{} missing in the numbering: {}{}", missing, missing == 1 ? " is" : "s are",
-                     fmt::join(first, ", "), shown < gaps.size() ? ", ..." : "");
-}
-
 FolderListing list_numbered(const fs::path& folder) {
+  const FolderNames names(folder);
   std::map<std::int64_t, FolderEntry> found;
-  for (const auto& file : fs::directory_iterator(folder)) {
-    const std::string name = file.path().filename().string();
+  for (const std::string& name : names.all()) {
     const auto number = frame_number(name);
     if (!number) continue;
     const std::string stem = name.substr(0, name.find('_'));
     FolderEntry entry;
     entry.name = stem;
-    entry.depth = file.path();
-    entry.colour = first_existing(folder, {stem + "_rgb.png", stem + "_rgb.jpg", stem + "_rgb.jpeg"});
-    entry.label = first_existing(folder, {stem + "_label.png"});
-    entry.classes = first_existing(folder, {stem + "_class.png"});
+    entry.depth = folder / name;
+    entry.colour = names.first_of({stem + "_rgb.png", stem + "_rgb.jpg", stem + "_rgb.jpeg"});
+    entry.label = names.first_of({stem + "_label.png"});
+    entry.classes = names.first_of({stem + "_class.png"});
     if (!found.emplace(*number, entry).second)
-      throw unreadable("two depth images have the same number", file.path().string(), "rename or delete one");
+      throw unreadable("two depth images have the same number", entry.depth.string(), "rename or delete one");
   }
-  FolderListing listing;
-  for (auto& [number, entry] : found) {
-    entry.timestamp_us =
-        std::llround(static_cast<double>(number - found.begin()->first) * 1e6 / listing.rate_hz);
-    listing.entries.push_back(entry);
-  }
-  if (const auto gaps = describe_gaps(found)) listing.notes.push_back(*gaps);
+  const std::vector<cv::Affine3d> poses = read_poses(folder);
+  FolderListing listing = list_by_number(std::move(found));
+  listing.sequence = !poses.empty();
+  for (std::size_t i = 0; i < std::min(poses.size(), listing.entries.size()); ++i)
+    listing.entries[i].camera_to_world = poses[i];
   return listing;
 }
 
@@ -94,7 +65,7 @@ extern const SourceKind kNumberedKind = {
     .recognises = has_numbered_depth,
     .open =
         [](const SourceInput& input, const SensorSettings&) {
-          return open_folder(input, kNumberedKind.name, list_numbered(input.path));
+          return open_folder(input, input.path, kNumberedKind.name, list_numbered(input.path));
         },
 };
 

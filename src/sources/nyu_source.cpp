@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
-#include "core/png.hpp"
+#include "core/image_size.hpp"
 #include "sources/hdf5_file.hpp"
 
 namespace saccade {
@@ -91,6 +91,7 @@ class NyuSource : public FrameSource {
       if (side < kLeast || side > kLargestSide)
         throw std::runtime_error(
             fmt::format("{}x{} is not of 8 to {} pixels a side", shape[1], shape[2], kLargestSide));
+    check_image_size(static_cast<std::int64_t>(shape[1]), static_cast<std::int64_t>(shape[2]));
     info_.size = {static_cast<int>(shape[1]), static_cast<int>(shape[2])};
     info_.frame_count = static_cast<std::int64_t>(shape[0]);
     images_ = Hdf5Images::open(file_, "images");

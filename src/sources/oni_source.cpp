@@ -60,6 +60,7 @@ void OniSource::fill_info(const std::filesystem::path& path) {
   info_.size = format.size;
   info_.frame_count = static_cast<std::int64_t>(depth_->frames.size());
   info_.rate_hz = format.rate_hz;
+  info_.sequence = true;
   const auto camera = intrinsics_at(*depth_, depth_->frames.front().payload_position, format.size);
   info_.intrinsics = camera.value_or(Intrinsics::guess_for(format.size));
   if (info_.intrinsics.origin == IntrinsicsOrigin::guess)
@@ -100,8 +101,8 @@ void OniSource::note_times() {
     if (jumps++ == 0) first = k;
   }
   if (jumps > 0)
-    info_.notes.push_back(fmt::format(
-        "the time jumps {} times, first at frame {}: by more than 10 s or backwards", jumps, first));
+    info_.notes.push_back(fmt::format("the time jumps {}, first at frame {}: by more than 10 s or backwards",
+                                      jumps == 1 ? "once" : fmt::format("{} times", jumps), first));
 }
 
 void OniSource::note_problems() {

@@ -40,6 +40,8 @@ Error not_recognised(const SourceInput& input) {
     case SourceInput::Type::file:
       return unreadable("not a kind of file that can be read", input.uri,
                         "known endings: " + known_endings());
+    case SourceInput::Type::special:
+      return unreadable("not a regular file", input.uri, "copy its content to a file");
     case SourceInput::Type::absent:
       break;
   }
@@ -65,6 +67,11 @@ bool has_source_ending(const fs::path& file) {
   const std::string ending = ending_of(file);
   return std::ranges::any_of(
       source_kinds(), [&](const SourceKind* kind) { return std::ranges::count(kind->endings, ending) > 0; });
+}
+
+bool names_device(const std::string& uri) {
+  const SourceKind* kind = kind_of(SourceInput(uri));
+  return kind != nullptr && kind->is_device;
 }
 
 std::string source_forms() {

@@ -17,6 +17,9 @@ std::unique_ptr<FrameSource> open_source(const std::string& uri, const SensorSet
 /// True if a file's name ends like a source: for lists from which a user chooses. Does not look at the disk.
 bool has_source_ending(const std::filesystem::path& file);
 
+/// True if the SOURCE is a device: a sensor or a camera.
+bool names_device(const std::string& uri);
+
 /// How SOURCE can be written: "openni2[:URI], synthetic:NAME?KEY=VALUE&..., ...".
 std::string source_forms();
 

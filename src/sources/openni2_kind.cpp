@@ -30,6 +30,7 @@ extern const SourceKind kOpenNi2Kind = {
         [](const SourceInput& input) { return input.uri == "openni2" || input.uri.starts_with("openni2:"); },
     .open = open,
     .is_path = false,
+    .is_device = true,
     .built = kBuilt,
 };
 

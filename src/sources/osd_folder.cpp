@@ -99,8 +99,10 @@ extern const SourceKind kOsdKind = {
         "Object Segmentation Database: depth/, disparity/ or point_cloud/, with image_color/, annotation/",
     .recognised_by = "image_color/ or annotation/ beside depth/, disparity/ or point_cloud/",
     .recognises = has_osd_folders,
-    .open = [](const SourceInput& input,
-               const SensorSettings&) { return open_folder(input, kOsdKind.name, list_osd(input.path)); },
+    .open =
+        [](const SourceInput& input, const SensorSettings&) {
+          return open_folder(input, input.path, kOsdKind.name, list_osd(input.path));
+        },
 };
 
 }  // namespace saccade

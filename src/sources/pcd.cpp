@@ -12,7 +12,7 @@
 
 #include <fmt/format.h>
 
-#include "core/png.hpp"
+#include "core/image_size.hpp"
 #include "sources/cloud_camera.hpp"
 #include "sources/lzf.hpp"
 
@@ -107,9 +107,7 @@ void check_header(Header& header) {
   const auto [width, height] = header.size;
   if (width <= 0 || height <= 0) throw broken("no WIDTH or HEIGHT");
   if (height == 1) throw std::runtime_error("the cloud is not organised: HEIGHT is 1");
-  if (width > kLargestSide || height > kLargestSide)
-    throw std::runtime_error(
-        fmt::format("{}x{} is larger than {} pixels a side", width, height, kLargestSide));
+  check_image_size(width, height);
   const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
   if (header.points != 0 && header.points != pixels) throw broken("POINTS is not WIDTH times HEIGHT");
   header.points = pixels;

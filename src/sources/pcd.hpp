@@ -17,7 +17,7 @@ struct OrganisedCloud {
 };
 
 /// Size of the image of an organised PCD. Throws std::runtime_error with the reason if it is not a PCD, not
-/// organised (HEIGHT 1) or larger than kLargestSide a side.
+/// organised (HEIGHT 1) or refused by check_image_size().
 cv::Size read_pcd_size(std::span<const std::uint8_t> pcd);
 
 /// Reads a PCD file (version 0.7 of the Point Cloud Library; DATA ascii, binary or binary_compressed) with

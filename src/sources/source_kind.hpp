@@ -13,7 +13,7 @@ namespace saccade {
 
 /// The SOURCE that a user gave, examined once for all kinds.
 struct SourceInput {
-  enum class Type { absent, file, folder };
+  enum class Type { absent, file, folder, special };  ///< special: a pipe, a socket or a device
 
   explicit SourceInput(const std::string& uri);
 
@@ -37,8 +37,9 @@ struct SourceKind {
   bool (*recognises)(const SourceInput& input) = nullptr;
   /// Throws Error: (unreadable) it cannot be read, (usage) the text has a mistake.
   std::unique_ptr<FrameSource> (*open)(const SourceInput& input, const SensorSettings& sensor) = nullptr;
-  bool is_path = true;  ///< false: SOURCE names a device or a scene, not files
-  bool built = true;    ///< false: this build leaves it out, and open() throws Error (usage)
+  bool is_path = true;     ///< false: SOURCE names a device or a scene, not files
+  bool is_device = false;  ///< a sensor or a camera
+  bool built = true;       ///< false: this build leaves it out, and open() throws Error (usage)
 };
 
 /// The ending of a file's name, in lower case with its dot: ".oni"; empty = none.

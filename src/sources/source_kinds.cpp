@@ -34,7 +34,8 @@ SourceInput::Type type_of(const fs::path& path) {
   std::error_code code;
   const fs::file_status status = fs::status(path, code);
   if (fs::is_directory(status)) return SourceInput::Type::folder;
-  return fs::exists(status) ? SourceInput::Type::file : SourceInput::Type::absent;
+  if (fs::is_regular_file(status)) return SourceInput::Type::file;
+  return fs::exists(status) ? SourceInput::Type::special : SourceInput::Type::absent;
 }
 
 }  // namespace

@@ -14,6 +14,7 @@
 #include <fmt/ranges.h>
 
 #include "core/error.hpp"
+#include "core/image_size.hpp"
 #include "scene/random.hpp"
 #include "scene/strips.hpp"
 #include "sources/source_kind.hpp"
@@ -24,6 +25,13 @@ namespace {
 using std::string_view;
 
 constexpr string_view kScheme = "synthetic:";
+
+cv::Affine3d as_affine(const scene::Pose& pose) {
+  cv::Matx33d rotation;
+  for (int r = 0; r < 3; ++r)
+    for (int c = 0; c < 3; ++c) rotation(r, c) = pose.rotation(r, c);
+  return {rotation, cv::Vec3d(pose.position_mm.x(), pose.position_mm.y(), pose.position_mm.z())};
+}
 
 template <typename Number>
 std::optional<Number> number(string_view text) {
@@ -43,16 +51,18 @@ bool read_number(string_view text, Number low, Number high, Target& target) {
 }
 
 bool read_size(string_view text, cv::Size& size) {
-  constexpr int kLargest = 8192;
   const auto cross = text.find('x');
-  return cross != string_view::npos && read_number(text.substr(0, cross), 1, kLargest, size.width) &&
-         read_number(text.substr(cross + 1), 1, kLargest, size.height);
+  return cross != string_view::npos && read_number(text.substr(0, cross), 1, kLargestSide, size.width) &&
+         read_number(text.substr(cross + 1), 1, kLargestSide, size.height) &&
+         std::int64_t{size.width} * size.height <= kMostPixels;
 }
 
+// One of the words for the values of an enumeration, in their order.
 template <typename Enum>
-bool read_choice(string_view text, string_view first, Enum a, string_view second, Enum b, Enum& target) {
-  if (text != first && text != second) return false;
-  target = text == first ? a : b;
+bool read_word(string_view text, std::initializer_list<string_view> words, Enum& target) {
+  const auto word = std::ranges::find(words, text);
+  if (word == words.end()) return false;
+  target = static_cast<Enum>(word - words.begin());
   return true;
 }
 
@@ -63,12 +73,12 @@ struct Key {
 
 using Spec = SyntheticSpec;
 
-constexpr std::array<Key, 10> kKeys = {{
+constexpr std::array<Key, 12> kKeys = {{
     {"seed", "an integer, 0..9007199254740992",
      [](string_view v, Spec& s) { return read_number<std::uint64_t>(v, 0, std::uint64_t{1} << 53, s.seed); }},
     {"noise", "none or kinect",
      [](string_view v, Spec& s) {
-       return read_choice(v, "none", Spec::Noise::none, "kinect", Spec::Noise::kinect, s.noise);
+       return read_word(v, {"none", "kinect"}, s.noise);
      }},
     {"missing", "a share of the pixels, 0..0.9",
      [](string_view v, Spec& s) { return read_number<double>(v, 0, 0.9, s.missing); }},
@@ -76,12 +86,17 @@ constexpr std::array<Key, 10> kKeys = {{
      [](string_view v, Spec& s) { return read_number<std::int64_t>(v, 1, 1'000'000, s.frames); }},
     {"scenes", "an integer, 1..1000000",
      [](string_view v, Spec& s) { return read_number<std::int64_t>(v, 1, 1'000'000, s.scenes); }},
-    {"size", "WxH with both in 1..8192, e.g. 640x480",
+    {"size", "WxH with both in 1..8192 and at most 16 megapixels, e.g. 640x480",
      [](string_view v, Spec& s) { return read_size(v, s.size); }},
-    {"camera", "still or orbit",
+    {"camera", "still, orbit, pan or walk",
      [](string_view v, Spec& s) {
-       return read_choice(v, "still", Spec::Camera::still, "orbit", Spec::Camera::orbit, s.camera);
+       return read_word(v, {"still", "orbit", "pan", "walk"}, s.camera);
      }},
+    {"event", "none, move, add, take or hide",
+     [](string_view v, Spec& s) {
+       return read_word(v, {"none", "move", "add", "take", "hide"}, s.event);
+     }},
+    {"at", "s, 0..86400", [](string_view v, Spec& s) { return read_number<double>(v, 0, 86400, s.at_s); }},
     {"rate", "Hz, 0.1..1000",
      [](string_view v, Spec& s) { return read_number<double>(v, 0.1, 1000, s.rate_hz); }},
     {"objects", "an integer, 1..20; the scene table only",
@@ -138,37 +153,42 @@ SyntheticSpec parse_synthetic(const std::string& uri) {
   }
 }
 
-SyntheticSource::SyntheticSource(const std::string& uri)
-    : spec_(parse_synthetic(uri)),
-      scene_(scene::make_scene(spec_.scene, {spec_.seed, spec_.objects, spec_.distance_mm})) {
+SyntheticSource::SyntheticSource(const std::string& uri) : spec_(parse_synthetic(uri)) {
+  make_scene(0);
   info_.uri = uri;
   info_.kind = "synthetic";
   info_.size = spec_.size;
   info_.frame_count = spec_.frames;
   info_.rate_hz = spec_.rate_hz;
+  info_.sequence = spec_.scenes == 1 && !is_still();
   const double focal = 525.0 * spec_.size.width / 640;
   info_.intrinsics = {focal, focal, (spec_.size.width - 1) / 2.0, (spec_.size.height - 1) / 2.0,
                       IntrinsicsOrigin::sensor};
 }
 
-void SyntheticSource::set_scene(std::int64_t number) {
-  if (number == scene_number_) return;
-  scene_ = scene::make_scene(
-      spec_.scene, {spec_.seed + static_cast<std::uint64_t>(number), spec_.objects, spec_.distance_mm});
+bool SyntheticSource::is_still() const {
+  return spec_.camera == scene::CameraPath::still && spec_.event == scene::EventKind::none;
+}
+
+void SyntheticSource::make_scene(std::int64_t number) {
+  const std::uint64_t seed = spec_.seed + static_cast<std::uint64_t>(number);
+  scene_ = scene::make_scene(spec_.scene, {seed, spec_.objects, spec_.distance_mm});
+  event_ = scene::plan_event(scene_, spec_.event, spec_.at_s, seed);
   scene_number_ = number;
   looked_ = false;
 }
 
 void SyntheticSource::look(double time_s) {
-  scene::render(scene_, info_.intrinsics, spec_.size, scene_.camera_at(time_s), view_);
+  pose_ = scene::camera_on(scene_, spec_.camera, time_s);
+  scene::render(scene::scene_at(scene_, event_, time_s), info_.intrinsics, spec_.size, pose_, view_);
   if (spec_.noise == SyntheticSpec::Noise::kinect) kinect_.set_view(view_, info_.intrinsics);
 }
 
 ReadResult SyntheticSource::read(Frame& frame, std::chrono::milliseconds) {
   if (next_ >= spec_.frames) return {ReadStatus::end, {}};
   const std::int64_t index = next_++;
-  set_scene(index % spec_.scenes);
-  if (spec_.camera == SyntheticSpec::Camera::orbit) {
+  if (index % spec_.scenes != scene_number_) make_scene(index % spec_.scenes);
+  if (!is_still()) {
     look(static_cast<double>(index) / spec_.rate_hz);
   } else if (!looked_) {
     look(0);
@@ -179,7 +199,7 @@ ReadResult SyntheticSource::read(Frame& frame, std::chrono::milliseconds) {
   frame.name.clear();
   frame.intrinsics = info_.intrinsics;
   // A still camera's view of one scene is rendered once and shared by all frames.
-  const bool rendered_once = spec_.camera == SyntheticSpec::Camera::still && spec_.scenes == 1;
+  const bool rendered_once = is_still() && spec_.scenes == 1;
   const auto give = [rendered_once](const auto& seen, auto& to) {
     if (rendered_once)
       to = seen;
@@ -189,6 +209,7 @@ ReadResult SyntheticSource::read(Frame& frame, std::chrono::milliseconds) {
   give(view_.colour, frame.colour);
   give(view_.labels, frame.truth.labels);
   give(view_.normals, frame.truth.normals);
+  frame.truth.camera_to_world = as_affine(pose_);
   frame.truth.classes.release();
   if (spec_.noise == SyntheticSpec::Noise::kinect)
     kinect_.sense(scene::mix(scene::mix(spec_.seed, 2), static_cast<std::uint64_t>(index)), frame.depth_mm);

@@ -21,6 +21,20 @@ struct TimedFile {
   fs::path path;
 };
 
+// A list may come from somebody else: it must not lead to other files of this machine.
+bool is_inside(const fs::path& name) {
+  return name.is_relative() && std::ranges::find(name, fs::path("..")) == name.end();
+}
+
+// The file nearest in time among `files`, which are in the order of their times; end() if there are none.
+std::vector<TimedFile>::const_iterator nearest_to(const std::vector<TimedFile>& files, double time_s) {
+  const auto after = std::ranges::lower_bound(files, time_s, {}, &TimedFile::time_s);
+  if (after == files.begin()) return after;
+  const double before_s = std::prev(after)->time_s;
+  if (after != files.end() && after->time_s - time_s < time_s - before_s) return after;
+  return std::ranges::lower_bound(files, before_s, {}, &TimedFile::time_s);  // the first of equal times
+}
+
 // A TUM list: "timestamp filename" lines, '#' starts a comment.
 std::vector<TimedFile> read_tum_list(const fs::path& list) {
   const auto bytes = read_file(list, 256u << 20);
@@ -36,6 +50,9 @@ std::vector<TimedFile> read_tum_list(const fs::path& list) {
     const auto [end, code] = std::from_chars(stamp.data(), stamp.data() + stamp.size(), time_s);
     if (code != std::errc{} || end != stamp.data() + stamp.size() || !std::isfinite(time_s) || name.empty())
       throw unreadable("not a 'timestamp filename' line", fmt::format("{}:{}", list.string(), number), kHint);
+    if (!is_inside(name))
+      throw unreadable("a file outside of the folder", fmt::format("{}:{}", list.string(), number),
+                       "each line names a file below the folder of the list");
     files.push_back({time_s, stamp, list.parent_path() / name});
   }
   std::stable_sort(files.begin(), files.end(),
@@ -44,27 +61,26 @@ std::vector<TimedFile> read_tum_list(const fs::path& list) {
 }
 
 FolderListing list_tum(const fs::path& folder) {
-  constexpr double kUnitsPerMetre = 5000, kSameMoment_s = 0.02;
+  constexpr double kUnitsPerMetre = 5000, kSameMoment_s = 0.02, kLatest_us = 9e18;
   FolderListing listing;
   listing.mm_per_unit = 1000 / kUnitsPerMetre;
   const auto depth = read_tum_list(folder / "depth.txt");
   if (depth.empty()) throw unreadable("no frames in the list", (folder / "depth.txt").string(), kHint);
   std::vector<TimedFile> colour;
-  if (fs::exists(folder / "rgb.txt")) colour = read_tum_list(folder / "rgb.txt");
+  std::error_code code;
+  if (fs::exists(folder / "rgb.txt", code)) colour = read_tum_list(folder / "rgb.txt");
   std::size_t without = 0;
   for (const TimedFile& file : depth) {
-    FolderEntry entry{
-        file.stamp, std::llround((file.time_s - depth.front().time_s) * 1e6), file.path, {}, {}};
-    const auto distance = [&](const TimedFile& other) { return std::abs(other.time_s - file.time_s); };
-    const auto nearest = std::min_element(colour.begin(), colour.end(), [&](const auto& a, const auto& b) {
-      return distance(a) < distance(b);
-    });
-    if (nearest != colour.end() && distance(*nearest) <= kSameMoment_s)
+    const double time_us = std::min((file.time_s - depth.front().time_s) * 1e6, kLatest_us);
+    FolderEntry entry{file.stamp, std::llround(time_us), file.path, {}, {}};
+    const auto nearest = nearest_to(colour, file.time_s);
+    if (nearest != colour.end() && std::abs(nearest->time_s - file.time_s) <= kSameMoment_s)
       entry.colour = nearest->path;
     else
       ++without;
     listing.entries.push_back(entry);
   }
+  listing.sequence = true;
   const double span_s = depth.back().time_s - depth.front().time_s;
   if (span_s > 0) listing.rate_hz = static_cast<double>(depth.size() - 1) / span_s;
   if (!colour.empty() && without > 0)
@@ -85,8 +101,10 @@ extern const SourceKind kTumKind = {
     .help = "a sequence of TUM RGB-D: depth.txt, rgb.txt and the images that they list",
     .recognised_by = "depth.txt",
     .recognises = has_depth_list,
-    .open = [](const SourceInput& input,
-               const SensorSettings&) { return open_folder(input, kTumKind.name, list_tum(input.path)); },
+    .open =
+        [](const SourceInput& input, const SensorSettings&) {
+          return open_folder(input, input.path, kTumKind.name, list_tum(input.path));
+        },
 };
 
 }  // namespace saccade

@@ -1,8 +1,7 @@
-// Video files and numbered images: depth with colour, or colour alone.
+// Video files: depth with colour, or colour alone.
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <regex>
 #include <stdexcept>
 #include <string_view>
 #include <utility>
@@ -10,7 +9,6 @@
 
 #include <fmt/format.h>
 #include <opencv2/imgproc.hpp>
-#include <opencv2/videoio.hpp>
 
 #include "sources/colour_video.hpp"
 #include "sources/depth_video.hpp"
@@ -19,6 +17,8 @@
 #include "sources/source_kind.hpp"
 
 namespace saccade {
+
+extern const SourceKind kVideoKind;
 namespace fs = std::filesystem;
 namespace {
 
@@ -43,8 +43,11 @@ class DepthVideoSource final : public FrameSource {
     info_.kind = kind;
     info_.size = depth_->size();
     info_.rate_hz = depth_->rate_hz();
+    info_.sequence = kind == kVideoKind.name;
     set_camera(info_, input.path.parent_path());
     tolerance_us_ = std::llround(0.75e6 / info_.rate_hz);
+    if (!depth_->has_checksums())
+      info_.notes.emplace_back("the file has no checksums: damage of its images may go unnoticed");
     if (!colour_) return;
     tolerance_us_ = std::max<std::int64_t>(tolerance_us_, std::llround(0.75e6 / colour_->rate_hz()));
     if (colour_->size() != info_.size)
@@ -107,6 +110,7 @@ class ColourVideoSource final : public FrameSource {
     info_.kind = kind;
     info_.size = video_->size();
     info_.rate_hz = video_->rate_hz();
+    info_.sequence = kind == kVideoKind.name;
     info_.has_depth = false;
     info_.notes.emplace_back(kNoDepthNote);
     set_camera(info_, path_.parent_path());
@@ -133,7 +137,7 @@ class ColourVideoSource final : public FrameSource {
 
  private:
   std::unique_ptr<ColourVideo> open() const {
-    return std::make_unique<ColourVideo>(path_.string(), cv::CAP_FFMPEG, kDefaultRateHz);
+    return std::make_unique<ColourVideo>(path_.string(), kDefaultRateHz);
   }
 
   fs::path path_;
@@ -148,50 +152,15 @@ std::unique_ptr<ColourVideo> colour_of_video(const fs::path& path, double rate_h
   std::string stem = path.stem().string();
   if (!stem.ends_with(kDepth)) return nullptr;
   stem.resize(stem.size() - kDepth.size());
+  std::error_code code;
   for (const std::string_view ending : kEndings)
-    if (const fs::path colour = path.parent_path() / (stem + "_rgb").append(ending); fs::exists(colour))
-      return std::make_unique<ColourVideo>(colour.string(), cv::CAP_FFMPEG, rate_hz);
+    if (const fs::path colour = path.parent_path() / (stem + "_rgb").append(ending);
+        fs::is_regular_file(colour, code))
+      return std::make_unique<ColourVideo>(colour.string(), rate_hz);
   return nullptr;
-}
-
-// The images (.png or .jpg) whose pattern has "rgb" for the last "depth" of the name; nullptr without any.
-std::unique_ptr<ColourVideo> colour_of_images(const std::string& pattern, double rate_hz) {
-  const fs::path path(pattern);
-  std::string name = path.stem().string();
-  constexpr std::string_view kDepth = "depth";
-  const auto found = name.rfind(kDepth);
-  if (found == std::string::npos) return nullptr;
-  name.replace(found, kDepth.size(), "rgb");
-  for (const char* ending : {".png", ".jpg"}) {
-    const std::string colour = (path.parent_path() / (name + ending)).string();
-    if (cv::VideoCapture(colour, cv::CAP_IMAGES).isOpened())
-      return std::make_unique<ColourVideo>(colour, cv::CAP_IMAGES, rate_hz);
-  }
-  return nullptr;
-}
-
-// Numbered images: a PNG with one printf number.
-bool is_image_pattern(const SourceInput& input) {
-  static const std::regex pattern("[^%]*%0?[0-9]*d[^%/]*\\.png");
-  return std::regex_match(input.uri, pattern);
 }
 
 }  // namespace
-
-extern const SourceKind kImagesKind = {
-    .name = "images",
-    .written = "depth_%04d.png",
-    .help = "numbered depth images (PNG, 16 bits, mm), with colour from rgb_%04d.png or .jpg",
-    .recognised_by = "a pattern with one %d that ends in .png",
-    .recognises = is_image_pattern,
-    .open = [](const SourceInput& input, const SensorSettings&) -> std::unique_ptr<FrameSource> {
-      const auto open = [pattern = input.uri] { return open_depth_images(pattern); };
-      auto depth = open();
-      auto colour = colour_of_images(input.uri, depth->rate_hz());
-      return std::make_unique<DepthVideoSource>(input, kImagesKind.name, std::move(depth), open,
-                                                std::move(colour));
-    },
-};
 
 extern const SourceKind kVideoKind = {
     .name = "video",

@@ -5,7 +5,7 @@
 #include <opencv2/videoio.hpp>
 
 #include "core/error.hpp"
-#include "sources/depth_video.hpp"
+#include "sources/colour_video.hpp"
 #include "sources/frame_fields.hpp"
 #include "sources/source_kind.hpp"
 
@@ -29,7 +29,7 @@ class WebcamSource final : public FrameSource {
     info_.kind = "v4l2";
     info_.size = first.size();
     info_.rate_hz = std::max(0.0, capture_[0].get(cv::CAP_PROP_FPS));
-    info_.live = true;
+    info_.live = info_.sequence = true;
     info_.has_depth = false;
     info_.notes.emplace_back(kNoDepthNote);
     info_.intrinsics = Intrinsics::guess_for(info_.size);
@@ -72,6 +72,7 @@ extern const SourceKind kWebcamKind = {
       return std::make_unique<WebcamSource>(input.uri);
     },
     .is_path = false,
+    .is_device = true,
 };
 
 }  // namespace saccade

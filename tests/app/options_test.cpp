@@ -54,8 +54,8 @@ Keys accepted_by(const CLI::App& command) {
 TEST(Options, EachCommandAcceptsTheScopesThatItUses) {
   Commands commands;
   const auto accepted = [&](const char* name) { return accepted_by(*commands.app.get_subcommand(name)); };
-  EXPECT_EQ(accepted("run"), keys_of({Scope::model, Scope::attention, Scope::frames, Scope::sensor,
-                                      Scope::output, Scope::program}));
+  EXPECT_EQ(accepted("run"), keys_of({Scope::model, Scope::attention, Scope::tracking, Scope::frames,
+                                      Scope::sensor, Scope::output, Scope::program}));
 #ifdef SACCADE_HAS_VIEWER
   EXPECT_EQ(accepted("view"),
             keys_of({Scope::model, Scope::attention, Scope::frames, Scope::sensor, Scope::program}));

@@ -1,5 +1,11 @@
 #include "core/file.hpp"
 
+#include <fcntl.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 
@@ -55,6 +61,59 @@ TEST_F(FileTest, LinesAreAppendedToAKeptFile) {
   EXPECT_EQ(content(folder_ / "l"), "one\ntwo\n");
   LineFile(folder_ / "l").append("three");
   EXPECT_EQ(content(folder_ / "l"), "three\n");
+}
+
+TEST_F(FileTest, SymbolicLinksAreNotFollowed) {
+  write_file(folder_ / "other", std::string_view("precious"));
+  fs::create_symlink(folder_ / "other", folder_ / "a.part");
+  write_file(folder_ / "a", std::string_view("new"));
+  EXPECT_EQ(content(folder_ / "a"), "new");
+  fs::create_symlink(folder_ / "other", folder_ / "b");
+  write_file(folder_ / "b", std::string_view("new"));
+  EXPECT_FALSE(fs::is_symlink(folder_ / "b")) << "the link is replaced";
+  for (const char* target : {"other", "absent"}) {
+    fs::create_symlink(folder_ / target, folder_ / "l");
+    EXPECT_THROW(LineFile(folder_ / "l"), Error);
+    EXPECT_THROW(LineFile(folder_ / "l", LineFile::Existing::keep), Error);
+    fs::remove(folder_ / "l");
+  }
+  EXPECT_EQ(content(folder_ / "other"), "precious");
+  EXPECT_FALSE(fs::exists(folder_ / "absent"));
+}
+
+TEST_F(FileTest, PipesAreRefusedWithoutWaiting) {
+  ASSERT_EQ(::mkfifo((folder_ / "p").c_str(), 0600), 0);
+  EXPECT_THROW(write_file(folder_ / "p", std::string_view("x")), Error);
+  EXPECT_THROW(LineFile(folder_ / "p"), Error);
+  EXPECT_THROW((void)read_file(folder_ / "p"), Error);
+  const int reader = ::open((folder_ / "p").c_str(), O_RDONLY | O_NONBLOCK);
+  EXPECT_THROW(LineFile(folder_ / "p"), Error);
+  ::close(reader);
+}
+
+TEST_F(FileTest, ALineThatDoesNotFitLeavesNoPartOfItself) {
+  LineFile lines(folder_ / "l");
+  lines.append("one");
+  rlimit before{};
+  ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
+  std::signal(SIGXFSZ, SIG_IGN);
+  const rlimit small{10, before.rlim_max};
+  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &small), 0);
+  EXPECT_THROW(lines.append("a line of more than ten bytes"), Error);
+  const std::string after = content(folder_ / "l");
+  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &before), 0);
+  EXPECT_EQ(after, "one\n");
+  lines.append("two");
+  EXPECT_EQ(content(folder_ / "l"), "one\ntwo\n");
+}
+
+TEST_F(FileTest, AFileThatIsDeletedMeanwhileIsAnError) {
+  LineFile lines(folder_ / "l");
+  lines.append("one");
+  EXPECT_NO_THROW(lines.check_in_place());
+  fs::remove(folder_ / "l");
+  EXPECT_THROW(lines.check_in_place(), Error);
+  EXPECT_THROW(lines.append("two"), Error);
 }
 
 TEST_F(FileTest, MissingAndTooLargeFilesAreUnreadable) {

@@ -174,6 +174,38 @@ TEST_F(EvalTest, SelectsFramesAndPrintsJson) {
   EXPECT_THAT(lines("out/hr.csv").back(), ::testing::StartsWith("3,"));
 }
 
+TEST_F(EvalTest, OverTimeWritesTableAndFigure) {
+  const std::string scene = "synthetic:table?seed=3&noise=kinect&size=160x120&frames=40&camera=orbit";
+  const auto run = [&](const std::string& out, const std::string& workers) {
+    return run_saccade({"eval", scene, "--out", in(out), "--over-time", "--levels", "0..2", "--models",
+                        "symmetry3d,centre", "--workers", workers});
+  };
+  const ProgramResult outcome = run("one", "1");
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  for (const char* name : {"held-30, n = 5", "first stays", "IDF1", "ids per place", "cuts"})
+    EXPECT_THAT(outcome.out, HasSubstr(name));
+  const json report = json::parse(text("one/over_time.json"));
+  ASSERT_EQ(report["models"].size(), 2U);
+  const json& model = report["models"][0];
+  EXPECT_EQ(model["model"], "symmetry3d");
+  EXPECT_EQ(model["frames"], 40);
+  EXPECT_EQ(model["cuts"], 0);
+  EXPECT_GT(model["held_1"]["5"].get<double>(), 0.8);
+  EXPECT_EQ(model["hit_ratio"]["over_time"].size(), 10U);
+  EXPECT_FALSE(cv::imread(in("one/over_time.png")).empty());
+  EXPECT_THAT(text("one/over_time.svg"), HasSubstr("held-30"));
+  ASSERT_EQ(run("two", "2").status, 0);
+  EXPECT_EQ(text("one/over_time.json"), text("two/over_time.json"));
+}
+
+TEST_F(EvalTest, OverTimeNeedsLabelsOrPoses) {
+  const fs::path still = folder_ / "still";
+  fs::create_directory(still);
+  write_file(still / "0000_depth.png", encode_png(cv::Mat1w(120, 160, static_cast<ushort>(900))));
+  expect_error(kUnreadable, "neither labels nor a camera pose",
+               {"eval", still.string(), "--out", in("out"), "--over-time", "--intrinsics", "100,100,80,60"});
+}
+
 TEST_F(EvalTest, Errors) {
   const std::string out = in("out");
   expect_error(kUsage, "no data set", {"eval", "--out", out});

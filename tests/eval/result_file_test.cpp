@@ -141,6 +141,50 @@ TEST_F(ResultFileTest, DamagedFilesAreNamedWithTheLine) {
   error_of(ExitStatus::unreadable, [&] { return read_results(folder_ / "nowhere"); });
 }
 
+TEST_F(ResultFileTest, EveryNumberHasARange) {
+  const std::string plan = plan_line(sample_plan()), image = image_line(sample_images()[0]);
+  const auto expect_refused = [&](std::string text, const std::string& from, const std::string& to,
+                                  int line) {
+    const auto at = text.find(from);
+    ASSERT_NE(at, std::string::npos) << from;
+    text.replace(at, from.size(), to);
+    put(line == 1 ? text + "\n" : plan + "\n" + text + "\n");
+    EXPECT_THAT(error_of(ExitStatus::unreadable, [&] { return read_results(folder_); }),
+                HasSubstr("results.jsonl:" + std::to_string(line)))
+        << to;
+  };
+  for (const char* bad : {"1e6", "1e17", "-0.1", "null", "\"0.1\""})
+    for (const char* key : {"\"random\":[", "\"centre\":["})
+      expect_refused(image, key, std::string(key) + bad + ",", 2);
+  for (const char* bad : {"-1", "1e300", "0.5", "1000000000000000000", "[]"}) {
+    expect_refused(image, "\"frame\":0", std::string("\"frame\":") + bad, 2);
+    expect_refused(image, "\"objects\":2", std::string("\"objects\":") + bad, 2);
+    expect_refused(image, "[1,2,4]", std::string("[1,") + bad + ",4]", 2);
+  }
+  expect_refused(image, "[1,2,4]", "[1,2,-2]", 2);
+  expect_refused(image, "\"map_ms\":10", "\"map_ms\":1e300", 2);
+  for (const char* bad : {"-1", "1e300", "0.5", "1000000000000000000", "null"})
+    for (const char* key : {"\"frames\":3", "\"points\":3", "\"shard\":1", "\"shards\":1"}) {
+      const std::string name(key, std::string(key).find(':') + 1);
+      expect_refused(plan, key, name + bad, 1);
+    }
+}
+
+TEST_F(ResultFileTest, AFrameThatIsThereTwiceIsAnError) {
+  const std::string image = image_line(sample_images()[0]) + "\n";
+  put(plan_line(sample_plan()) + "\n" + image + image);
+  EXPECT_THAT(error_of(ExitStatus::unreadable, [&] { return read_results(folder_); }),
+              HasSubstr("frame 0 is there twice"));
+}
+
+TEST_F(ResultFileTest, ASymbolicLinkIsNotFollowed) {
+  write_file(folder_ / "other", plan_line(sample_plan()) + "\nhalf a line");
+  fs::create_directories(folder_ / "out");
+  fs::create_symlink(folder_ / "other", folder_ / "out" / kResultFile);
+  EXPECT_THROW((void)resume_results(folder_ / "out", sample_plan()), Error);
+  EXPECT_EQ(read_file(folder_ / "other").size(), plan_line(sample_plan()).size() + 12);
+}
+
 TEST_F(ResultFileTest, MergedShardsAreTheWhole) {
   const StoredResults merged = merge_results({put_shard(2, 3), put_shard(3, 3), put_shard(1, 3)});
   EXPECT_TRUE(merged.complete);

@@ -22,6 +22,7 @@ const Floors kHouse = {
     {"src/scene", "src/oni", "drivers/openni2", "src/saliency/simd"},
     {"src/saliency"},
     {"src/models", "src/attention", "src/sources"},
+    {"src/tracking"},
     {"src/pipeline", "drivers/modules"},
     {"src/output"},
     {"src/settings"},

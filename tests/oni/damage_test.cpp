@@ -178,6 +178,27 @@ TEST_F(DamageTest, RepairChangesNeitherTheOriginalNorAnExistingFile) {
   EXPECT_EQ(frames_of(path("copy.oni")), first_frames(kFrames));
 }
 
+TEST_F(DamageTest, ARepairThatSavesNothingIsAnErrorAndKeepsWhatWasThere) {
+  const Recording recording(path("whole.oni"));
+  Bytes damaged = whole_;
+  for (const OniNode& node : recording.index().nodes)
+    for (const OniFrameEntry& frame : node.frames)
+      for (std::size_t i = 0; i < 8; ++i) damaged[frame.payload_position + i] = 0xFF;
+  write_bytes(path("d.oni"), damaged);
+  write_bytes(path("before.oni"), Bytes{1, 2, 3});
+  for (const char* to : {"new.oni", "before.oni"}) {
+    try {
+      repair_recording(path("d.oni"), path(to), true);
+      ADD_FAILURE() << "no error came";
+    } catch (const Error& error) {
+      EXPECT_EQ(error.status(), ExitStatus::unreadable) << error.what();
+    }
+  }
+  EXPECT_FALSE(std::filesystem::exists(path("new.oni")));
+  EXPECT_EQ(read_bytes(path("before.oni")), (Bytes{1, 2, 3}));
+  EXPECT_FALSE(std::filesystem::exists(path("before.oni.part")));
+}
+
 TEST_F(DamageTest, RepairOmitsBadFrames) {
   const Recording recording(path("whole.oni"));
   const OniFrameEntry& frame = main_depth(recording)->frames[2];

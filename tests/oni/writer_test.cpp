@@ -43,6 +43,32 @@ TEST_F(OniWriterTest, DepthIsKeptBitForBitInEveryCodec) {
   }
 }
 
+TEST_F(OniWriterTest, AFileThatIsReplacedStaysUntilTheFirstFrame) {
+  record_test_frames(path("a.oni"), 3, kSize, false);
+  const auto before = read_bytes(path("a.oni"));
+  {
+    OniWriter writer(path("a.oni"), {.overwrite = true});
+    EXPECT_EQ(read_bytes(path("a.oni")), before);
+    EXPECT_THROW(writer.close(), Error) << "nothing was recorded";
+  }
+  EXPECT_EQ(read_bytes(path("a.oni")), before);
+  {
+    OniWriter writer(path("a.oni"), {.overwrite = true});
+    writer.write(test_frame(0, kSize, false));
+    EXPECT_NE(read_bytes(path("a.oni")), before) << "a process that is killed now has saved its frame";
+    writer.close();
+  }
+  expect_sound(path("a.oni"));
+  EXPECT_FALSE(std::filesystem::exists(path("a.oni.part")));
+}
+
+TEST_F(OniWriterTest, AFileThatIsDeletedMeanwhileIsAnError) {
+  OniWriter writer(path("a.oni"), {});
+  writer.write(test_frame(0, kSize, false));
+  std::filesystem::remove(path("a.oni"));
+  EXPECT_THROW(writer.close(), Error);
+}
+
 TEST_F(OniWriterTest, EveryDepthUpTo65535IsKept) {
   Frame frame = test_frame(0, {256, 256}, false);
   for (int i = 0; i < 65536; ++i) frame.depth_mm(i / 256, i % 256) = static_cast<float>(i);

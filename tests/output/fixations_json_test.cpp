@@ -23,5 +23,23 @@ TEST(FixationsJson, HasExactlyTheDocumentedFields) {
   EXPECT_NO_THROW(nlohmann::json::parse(fixations_json(result)));
 }
 
+TEST(FixationsJson, OverTimeHasIdsGazeAndPose) {
+  Result result;
+  Fixation fixation{3, 4, 0.5F, {1, 2, 3}, {}};
+  fixation.id = 9;
+  fixation.age_frames = 12;
+  fixation.world_mm = {4, 5, 6};
+  result.attention.fixations.push_back(fixation);
+  const cv::Affine3d pose(cv::Matx33d::eye(), cv::Vec3d(0.25, -2, 1000));
+  result.attention.sequence = SequenceState{9, true, pose};
+  EXPECT_EQ(fixations_json(result),
+            R"({"frame":0,"name":"","timestamp_us":0,"gaze":9,"cut":true,)"
+            R"("camera_to_world":[1,0,0,0.25,0,1,0,-2,0,0,1,1000,0,0,0,1],)"
+            R"("fixations":[{"rank":1,"row":3,"col":4,"saliency":0.5,"x_mm":1,"y_mm":2,"z_mm":3,)"
+            R"("id":9,"age_frames":12,"world_mm":[4,5,6]}]})");
+  result.attention.sequence->gaze.reset();
+  EXPECT_TRUE(nlohmann::json::parse(fixations_json(result))["gaze"].is_null());
+}
+
 }  // namespace
 }  // namespace saccade

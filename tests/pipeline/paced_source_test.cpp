@@ -28,6 +28,7 @@ class TimedSource : public CountingSource {
  public:
   using CountingSource::CountingSource;
   std::function<void()> while_reading;  ///< called once
+  void hide_count() { info_.frame_count.reset(); }
   ReadResult read(Frame& frame, milliseconds timeout) override {
     if (const auto call = std::exchange(while_reading, nullptr)) call();
     const ReadResult result = CountingSource::read(frame, timeout);
@@ -72,6 +73,19 @@ TEST_F(PacedSourceTest, FramesComeWhenTheirTimestampsAreDue) {
   EXPECT_NEAR(clock_->seconds(), 0.5, 1e-6);
   EXPECT_EQ(next(), 6);
   EXPECT_NEAR(clock_->seconds(), 2.5, 1e-6) << "a gap lasts 2 s at most";
+}
+
+TEST_F(PacedSourceTest, TheLastFrameIsFoundWhereTheirNumberIsNotKnown) {
+  auto recording = std::make_unique<TimedSource>(10);
+  recording->hide_count();
+  source_ = std::make_unique<PacedSource>(std::move(recording), playback_, PlayRange{}, clock_);
+  EXPECT_EQ(next(), 0);
+  playback_->pause();
+  playback_->seek(std::int64_t{1} << 40);
+  EXPECT_EQ(next(), 9);
+  EXPECT_EQ(next(), -1) << "it is paused there";
+  playback_->seek(3);
+  EXPECT_EQ(next(), 3);
 }
 
 TEST_F(PacedSourceTest, SpeedScalesTimeAndAtFullSpeedOnlyTheConsumerIsWaitedFor) {

@@ -20,7 +20,7 @@ class CountingSource : public FrameSource {
  public:
   explicit CountingSource(std::int64_t count, std::set<std::int64_t> rejected = {},
                           std::int64_t fails_at = -1)
-      : rejected_(std::move(rejected)), fails_at_(fails_at) {
+      : count_(count), rejected_(std::move(rejected)), fails_at_(fails_at) {
     info_.size = {8, 8};
     info_.frame_count = count;
   }
@@ -28,7 +28,7 @@ class CountingSource : public FrameSource {
   const SourceInfo& info() const override { return info_; }
 
   ReadResult read(Frame& frame, std::chrono::milliseconds) override {
-    if (next_ >= *info_.frame_count) return {ReadStatus::end, ""};
+    if (next_ >= count_) return {ReadStatus::end, ""};
     if (next_ == fails_at_) throw failed("source failed", "here", "nothing");
     frame.index = next_++;
     frame.depth_mm.create(8, 8);
@@ -44,6 +44,7 @@ class CountingSource : public FrameSource {
   std::int64_t next_ = 0;
 
  private:
+  std::int64_t count_;
   std::set<std::int64_t> rejected_;
   std::int64_t fails_at_;
 };

@@ -1,6 +1,11 @@
+#include <algorithm>
+#include <array>
+#include <chrono>
 #include <filesystem>
+#include <span>
 #include <string_view>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <opencv2/imgcodecs.hpp>
@@ -82,6 +87,23 @@ TEST_F(FolderSourceTest, ReadsFramesInTheOrderOfTheirNumbersWithColourAndLabels)
   source->seek(1);
   ASSERT_EQ(source->read(frame, kNoWait).status, ReadStatus::frame);
   EXPECT_EQ(frame.name, "10");
+}
+
+TEST_F(FolderSourceTest, PosesMakeASequence) {
+  for (const char* name : {"0_depth.png", "1_depth.png", "2_depth.png"}) put_depth(name, 1000);
+  EXPECT_FALSE(open_source(folder_.string())->info().sequence);
+  put_text("poses.txt", "1 0 0 0  0 1 0 0  0 0 1 0  0 0 0 1\n\n1 0 0 0.5 0 1 0 -0.25 0 0 1 2 0 0 0 1\n");
+  const auto source = open_source(folder_.string());
+  EXPECT_TRUE(source->info().sequence);
+  Frame frame;
+  ASSERT_EQ(source->read(frame, kNoWait).status, ReadStatus::frame);
+  ASSERT_EQ(source->read(frame, kNoWait).status, ReadStatus::frame);
+  ASSERT_TRUE(frame.truth.camera_to_world);
+  EXPECT_EQ(frame.truth.camera_to_world->translation(), cv::Vec3d(500, -250, 2000)) << "in mm";
+  ASSERT_EQ(source->read(frame, kNoWait).status, ReadStatus::frame);
+  EXPECT_FALSE(frame.truth.camera_to_world) << "there is no third pose";
+  put_text("poses.txt", "1 0 0 0  0 1 0 0  0 0 1 0  0 0 0\n");
+  EXPECT_THAT(error(), HasSubstr("pose 0 is not 16 numbers"));
 }
 
 TEST_F(FolderSourceTest, GapsInTheNumbersAreReported) {
@@ -176,6 +198,77 @@ TEST_F(FolderSourceTest, OtherSizesOfDepthColourAndLabelsAreRejected) {
   EXPECT_THAT(rejection(), HasSubstr("1_class.png: 15x12, but the depth is 16x12"));
 }
 
+TEST_F(FolderSourceTest, AJpegThatIsCutOrLiesAboutItsSizeIsRejected) {
+  put_depth("0_depth.png", 1000);
+  put_depth("1_depth.png", 1000);
+  cv::Mat3b image(12, 16);
+  cv::randu(image, 0, 255);
+  std::vector<std::uint8_t> jpeg;
+  ASSERT_TRUE(cv::imencode(".jpg", image, jpeg));
+  const std::span<const std::uint8_t> all(jpeg);
+  for (const std::size_t bytes : {all.size() - 2, all.size() * 3 / 4, std::size_t{200}, std::size_t{3}}) {
+    write_file(folder_ / "1_rgb.jpg", all.first(bytes));
+    EXPECT_THAT(rejection(), HasSubstr("1_rgb.jpg: ")) << bytes;
+  }
+  const std::array<std::uint8_t, 2> frame_header = {0xff, 0xc0};
+  const auto at = std::ranges::search(jpeg, frame_header).begin() - jpeg.begin();
+  for (const auto i : {5, 7}) {
+    jpeg[static_cast<std::size_t>(at + i)] = 0xff;
+    jpeg[static_cast<std::size_t>(at + i + 1)] = 0xdc;
+  }
+  write_file(folder_ / "1_rgb.jpg", jpeg);
+  EXPECT_THAT(rejection(), HasSubstr("1_rgb.jpg: 65500x65500 is larger than 8192"));
+}
+
+// A PNG of any size that holds nothing.
+std::vector<std::uint8_t> empty_png(std::uint32_t width, std::uint32_t height, std::uint8_t bits) {
+  std::vector<std::uint8_t> png = encode_png(cv::Mat1w(8, 8, std::uint16_t{0}));
+  const auto put_side = [&](std::size_t at, std::uint32_t side) {
+    for (std::size_t i = 0; i < 4; ++i) png[at + i] = static_cast<std::uint8_t>(side >> (24 - 8 * i));
+  };
+  put_side(16, width);
+  put_side(20, height);
+  png[24] = bits;
+  std::uint32_t crc = 0xffffffff;
+  for (std::size_t i = 12; i < 29; ++i) {
+    crc ^= png[i];
+    for (int bit = 0; bit < 8; ++bit) crc = (crc >> 1) ^ ((crc & 1) != 0 ? 0xEDB88320U : 0U);
+  }
+  put_side(29, ~crc);
+  return png;
+}
+
+TEST_F(FolderSourceTest, ImagesOfTooManyPixelsAreNotDecoded) {
+  write_file(folder_ / "0_depth.png", empty_png(8192, 1954, 16));
+  EXPECT_THAT(error(), HasSubstr("0_depth.png: 8192x1954 has more than 16 megapixels"));
+  put_depth("0_depth.png", 1000);
+  put_depth("1_depth.png", 1000);
+  for (const char* name : {"1_rgb.png", "1_label.png", "1_class.png"}) {
+    write_file(folder_ / name, empty_png(30000, 30000, 8));
+    EXPECT_THAT(rejection(), HasSubstr(std::string(name) + ": 30000x30000 is larger than 8192"));
+    fs::remove(folder_ / name);
+  }
+}
+
+TEST_F(FolderSourceTest, NumbersCanBeAsLargeAsIntegers) {
+  put_depth("0_depth.png", 1000);
+  put_depth("9223372036854775807_depth.png", 1001);
+  put_depth("9223372036854775808_depth.png", 1002);  // no longer a number
+  const auto source = open_source(folder_.string());
+  EXPECT_EQ(source->info().frame_count, 2);
+  EXPECT_THAT(source->info().notes, ElementsAre(HasSubstr("9223372036854775806 frames are missing")));
+  Frame frame;
+  EXPECT_EQ(source->read(frame, kNoWait).status, ReadStatus::frame);
+  EXPECT_EQ(source->read(frame, kNoWait).status, ReadStatus::frame);
+  EXPECT_GT(frame.timestamp_us, 0);
+}
+
+TEST_F(FolderSourceTest, AHugeMetaFileIsRefusedBeforeItIsRead) {
+  put_depth("0_depth.png", 1000);
+  put_text("meta.json", std::string(2 << 20, '['));
+  EXPECT_THAT(error(), HasSubstr("meta.json"));
+}
+
 TEST_F(FolderSourceTest, EmptyAndMissingFoldersAreErrors) {
   EXPECT_THAT(error(), HasSubstr("no frames in the folder"));
   EXPECT_THROW(open_source((folder_ / "none").string()), Error);
@@ -207,6 +300,29 @@ TEST_F(FolderSourceTest, BrokenTumListNamesTheLine) {
   EXPECT_THAT(error(), HasSubstr("depth.txt:2"));
   put_text("depth.txt", "# nothing\n");
   EXPECT_THAT(error(), HasSubstr("no frames in the list"));
+}
+
+TEST_F(FolderSourceTest, TumListsCannotLeadOutOfTheFolder) {
+  for (const char* name : {"/etc/hostname", "../a.png", "depth/../../a.png"}) {
+    put_text("depth.txt", std::string("1.0 ") + name + "\n");
+    EXPECT_THAT(error(), HasSubstr("a file outside of the folder")) << name;
+  }
+}
+
+TEST_F(FolderSourceTest, LongTumListsArePairedInALittleTime) {
+  std::string depth, colour;
+  for (int k = 0; k < 100'000; ++k) {
+    depth += fmt::format("{}.5 {}.png\n", k, k);
+    colour += fmt::format("{}.51 c{}.png\n{}.49 c{}.png\n", k, k, k, k);
+  }
+  put_text("depth.txt", depth);
+  put_text("rgb.txt", colour);
+  put_depth("0.png", 5000);
+  const auto begin = std::chrono::steady_clock::now();
+  const auto source = open_source(folder_.string());
+  // Comparing each with each took 10 s at half of this size.
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(20));
+  EXPECT_THAT(source->info().notes, IsEmpty());
 }
 
 TEST(FolderSourceOnRealData, ReadsEveryFrame) {

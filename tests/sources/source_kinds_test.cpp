@@ -1,6 +1,8 @@
 // The table of sources: which row an input belongs to, and what reads from the table.
 #include "sources/source_kind.hpp"
 
+#include <sys/stat.h>
+
 #include <fstream>
 #include <set>
 #include <string>
@@ -113,6 +115,25 @@ TEST_F(SourceKinds, ErrorsSayWhatIsExpected) {
   EXPECT_THAT(complaint(folder("empty"), ExitStatus::unreadable),
               AllOf(HasSubstr("no frames in the folder"), HasSubstr("NNNN_depth.png"), HasSubstr("depth.txt"),
                     Not(HasSubstr(".mkv"))));
+}
+
+TEST_F(SourceKinds, SpecialFilesAndVeryLongNamesAreRefused) {
+  for (const char* name : {"x_depth.mkv", "x.oni", "x.mat", "x"}) {
+    ASSERT_EQ(::mkfifo((folder_ / name).c_str(), 0600), 0);
+    EXPECT_THAT(complaint(folder(name), ExitStatus::unreadable), HasSubstr("not a regular file")) << name;
+  }
+  EXPECT_THAT(complaint("/dev/null", ExitStatus::unreadable), HasSubstr("not a regular file"));
+  for (const char* end : {"", ".png", "%04d.png", ".oni", "/"})
+    complaint(std::string(30'000, 'x') + end, ExitStatus::unreadable);
+  complaint(std::string(30'000, '%') + "d.png", ExitStatus::unreadable);
+}
+
+TEST_F(SourceKinds, DevicesAreKnown) {
+  EXPECT_TRUE(names_device("openni2"));
+  EXPECT_TRUE(names_device("openni2:anything"));
+  EXPECT_TRUE(names_device("v4l2:/dev/video0"));
+  for (const std::string& uri : {put("a.oni"), folder("absent.oni"), std::string("synthetic:room")})
+    EXPECT_FALSE(names_device(uri)) << uri;
 }
 
 TEST_F(SourceKinds, ListsOfFilesKnowTheEndings) {

@@ -41,7 +41,7 @@ TEST(SyntheticSpec, DefaultsAreAStillExactScene) {
   EXPECT_EQ(spec.missing, 0);
   EXPECT_EQ(spec.frames, 90);
   EXPECT_EQ(spec.size, cv::Size(640, 480));
-  EXPECT_EQ(spec.camera, SyntheticSpec::Camera::still);
+  EXPECT_EQ(spec.camera, scene::CameraPath::still);
   EXPECT_EQ(spec.rate_hz, 30);
   EXPECT_FALSE(spec.objects);
   EXPECT_FALSE(spec.distance_mm);
@@ -58,7 +58,7 @@ TEST(SyntheticSpec, ReadsEveryKey) {
   EXPECT_EQ(spec.missing, 0.9);
   EXPECT_EQ(spec.frames, 1'000'000);
   EXPECT_EQ(spec.size, cv::Size(8192, 1));
-  EXPECT_EQ(spec.camera, SyntheticSpec::Camera::orbit);
+  EXPECT_EQ(spec.camera, scene::CameraPath::orbit);
   EXPECT_EQ(spec.rate_hz, 0.5);
   EXPECT_EQ(spec.objects, 20);
   EXPECT_EQ(spec.distance_mm, 812.5);
@@ -72,7 +72,7 @@ TEST(SyntheticSpec, NamesMistakesAndKnownWords) {
       {"synthetic:", "unknown scene ''", "cone, cube, cylinder, sphere, table, room"},
       {"synthetic:kitchen?seed=1", "unknown scene 'kitchen'", "cone, cube, cylinder, sphere, table, room"},
       {"synthetic:table?sed=1", "unknown key 'sed'",
-       "seed, noise, missing, frames, scenes, size, camera, rate, objects, distance"},
+       "seed, noise, missing, frames, scenes, size, camera, event, at, rate, objects, distance"},
       {"synthetic:table?", "unknown key ''", "known keys"},
       {"synthetic:table?seed=1&", "unknown key ''", "known keys"},
       {"synthetic:table?seed=1&seed=1", "'seed' is given twice", "once"},
@@ -89,7 +89,7 @@ TEST(SyntheticSpec, NamesMistakesAndKnownWords) {
       {"synthetic:table?size=640x", "'640x'", "640x480"},
       {"synthetic:table?size=0x480", "'0x480'", "1..8192"},
       {"synthetic:table?size=640x8193", "'640x8193'", "1..8192"},
-      {"synthetic:table?camera=fly", "'fly'", "still or orbit"},
+      {"synthetic:table?camera=fly", "'fly'", "still, orbit, pan or walk"},
       {"synthetic:table?rate=0", "'0'", "0.1..1000"},
       {"synthetic:table?rate=nan", "'nan'", "0.1..1000"},
       {"synthetic:table?rate=30Hz", "'30Hz'", "0.1..1000"},

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -35,7 +36,7 @@ void draw_choices(CloudStyle& style, CloudPanelState& state) {
   int colour = static_cast<int>(style.colour);
   if (ImGui::Combo("##colour", &colour, kColourNames.data(), static_cast<int>(kColourNames.size())))
     style.colour = static_cast<CloudColour>(colour);
-  explain("Colour of the points.");
+  explain("Colour of the points: the saliency map over the image, the image alone, or depth.");
   checkbox("Lit", style.lit, "Shades the points: surfaces that turn away from the eye are darker.");
   checkbox("Normals", style.needles, "Lines along the surface normals.");
   checkbox("Fixations", style.fixations, "Numbered markers with their positions in mm.");
@@ -74,26 +75,46 @@ struct Box {
   }
 };
 
-// A number in a disc, with the position beside it if that covers no other text.
-void draw_marker(ImDrawList& list, ImVec2 at, std::size_t rank, const Fixation& fixation,
-                 std::vector<Box>& taken) {
+// The largest of 1, 2, 5, 10, 20, 50, ... that is at most `most`.
+double nice_length(double most) {
+  const double power = std::pow(10, std::floor(std::log10(std::max(most, 1e-3))));
+  for (const double digit : {5, 2})
+    if (digit * power <= most) return digit * power;
+  return power;
+}
+
+struct Marker {
+  ImVec2 at;
+  std::size_t rank;
+  cv::Point3f position_mm;
+  bool doubtful;  // see is_doubtful()
+  bool hidden;    // behind a surface
+};
+
+// A number in a disc, with the position beside it if that covers no other text; faint and without the
+// position if it is hidden.
+void draw_marker(ImDrawList& list, const Marker& marker, std::vector<Box>& taken) {
   const float em = ImGui::GetFontSize(), radius = 0.75F * em;
-  const ImU32 colour = is_doubtful(fixation) ? IM_COL32(255, 255, 255, 110)
-                       : rank == 1           ? IM_COL32(80, 255, 80, 255)
-                                             : IM_COL32(255, 255, 255, 255);
-  list.AddCircleFilled(at, radius, IM_COL32(0, 0, 0, 220));
+  const ImVec2 at = marker.at;
+  const unsigned opacity = marker.hidden ? 90 : marker.doubtful ? 110 : 255;
+  const ImU32 colour = marker.rank == 1 && !marker.doubtful ? IM_COL32(80, 255, 80, opacity)
+                                                            : IM_COL32(255, 255, 255, opacity);
+  list.AddCircleFilled(at, radius, IM_COL32(0, 0, 0, marker.hidden ? 70 : 220));
   list.AddCircle(at, radius, colour, 0, em / 10);
-  const std::string number = fmt::format("{}", rank);
+  const std::string number = fmt::format("{}", marker.rank);
   const ImVec2 digits = ImGui::CalcTextSize(number.c_str());
   list.AddText({at.x - digits.x / 2, at.y - digits.y / 2}, colour, number.c_str());
+  if (marker.hidden) return;
 
-  const cv::Point3f& p = fixation.position_mm;
-  const std::string text = fmt::format("{:.0f} {:.0f} {:.0f} mm", p.x, p.y, p.z);
+  const std::string text = fmt::format("{:.0f} {:.0f} {:.0f} mm", marker.position_mm.x, marker.position_mm.y,
+                                       marker.position_mm.z);
   const ImVec2 size = ImGui::CalcTextSize(text.c_str());
-  // At the right; at the left where there is no room.
+  // At the right; at the left where there is no room. Never cut at the top or the bottom.
   const float right = at.x + radius + 0.3F * em;
   const bool fits = right + size.x < list.GetClipRectMax().x;
-  const ImVec2 corner(fits ? right : at.x - radius - 0.3F * em - size.x, at.y - size.y / 2);
+  const float y = std::clamp(at.y - size.y / 2, list.GetClipRectMin().y,
+                             std::max(list.GetClipRectMin().y, list.GetClipRectMax().y - size.y));
+  const ImVec2 corner(fits ? right : at.x - radius - 0.3F * em - size.x, y);
   const Box box{{corner.x - 0.2F * em, corner.y}, {corner.x + size.x + 0.2F * em, corner.y + size.y}};
   if (std::any_of(taken.begin(), taken.end(), [&](const Box& other) { return box.meets(other); })) return;
   taken.push_back(box);
@@ -101,13 +122,35 @@ void draw_marker(ImDrawList& list, ImVec2 at, std::size_t rank, const Fixation& 
   list.AddText(corner, colour, text.c_str());
 }
 
-void draw_fixations(const CloudPanelState& state, const std::vector<Fixation>& fixations, ImVec2 corner,
-                    cv::Size viewport) {
+// Marks those markers that lie behind the surface: of every eighth row and column of the depth image, a point
+// is at the same place of the screen and nearer to the eye.
+void find_hidden(const OrbitCamera& camera, const Frame& frame, ImVec2 corner, cv::Size viewport,
+                 std::vector<Marker>& markers) {
+  constexpr int kEvery = 8;
+  constexpr double kInFront_mm = 60;
+  constexpr float kNear_px = 8;
+  const cv::Point3d eye(camera.eye_mm());
+  if (cv::norm(eye) < 1) return;  // from where the sensor sees, nothing hides what it sees
+  for (int r = 0; r < frame.depth_mm.rows; r += kEvery)
+    for (int c = 0; c < frame.depth_mm.cols; c += kEvery) {
+      const auto z = static_cast<double>(frame.depth_mm(r, c));
+      if (!(z > 0)) continue;
+      const cv::Point3d point = frame.intrinsics.point_mm(r, c, z);
+      const auto at = camera.project(point, viewport);
+      if (!at) continue;
+      for (Marker& marker : markers) {
+        const float dx = corner.x + static_cast<float>(at->x) - marker.at.x;
+        const float dy = corner.y + static_cast<float>(at->y) - marker.at.y;
+        if (std::abs(dx) > kNear_px || std::abs(dy) > kNear_px) continue;
+        marker.hidden |=
+            cv::norm(point - eye) + kInFront_mm < cv::norm(cv::Point3d(marker.position_mm) - eye);
+      }
+    }
+}
+
+void draw_fixations(const CloudPanelState& state, const Frame& frame, const std::vector<Fixation>& fixations,
+                    ImVec2 corner, cv::Size viewport) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
-  struct Marker {
-    ImVec2 at;
-    std::size_t index;
-  };
   std::vector<Marker> markers;
   std::vector<Box> taken;  // begins with the discs: no text over them
   const float radius = 0.75F * ImGui::GetFontSize();
@@ -117,11 +160,59 @@ void draw_fixations(const CloudPanelState& state, const std::vector<Fixation>& f
     const auto at = state.camera.project(p, viewport);
     if (!at) continue;
     const ImVec2 screen(corner.x + static_cast<float>(at->x), corner.y + static_cast<float>(at->y));
-    markers.push_back({screen, i});
+    markers.push_back({screen, i + 1, p, is_doubtful(fixations[i]), false});
     taken.push_back({{screen.x - radius, screen.y - radius}, {screen.x + radius, screen.y + radius}});
   }
-  for (const Marker& marker : markers)
-    draw_marker(list, marker.at, marker.index + 1, fixations[marker.index], taken);
+  find_hidden(state.camera, frame, corner, viewport, markers);
+  for (const Marker& marker : markers) {
+    draw_marker(list, marker, taken);
+    if (static_cast<int>(marker.rank) - 1 == state.highlighted)
+      list.AddCircle(marker.at, 1.25F * radius, ImGui::GetColorU32(ImGuiCol_CheckMark), 0, radius / 4);
+  }
+}
+
+void draw_measured(const CloudPanelState& state, ImVec2 corner, cv::Size viewport) {
+  if (state.measured.size() != 2) return;
+  const auto a = state.camera.project(state.measured[0], viewport);
+  const auto b = state.camera.project(state.measured[1], viewport);
+  if (!a || !b) return;
+  const ImVec2 from(corner.x + static_cast<float>(a->x), corner.y + static_cast<float>(a->y));
+  const ImVec2 to(corner.x + static_cast<float>(b->x), corner.y + static_cast<float>(b->y));
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const float em = ImGui::GetFontSize();
+  list.AddLine(from, to, ImGui::GetColorU32(ImGuiCol_CheckMark), em / 8);
+  const std::string text = fmt::format("{:.0f} mm", cv::norm(state.measured[0] - state.measured[1]));
+  const ImVec2 middle((from.x + to.x) / 2, (from.y + to.y) / 2), size = ImGui::CalcTextSize(text.c_str());
+  list.AddRectFilled(middle, {middle.x + size.x + 0.4F * em, middle.y + size.y}, IM_COL32(0, 0, 0, 190),
+                     em / 5);
+  list.AddText({middle.x + 0.2F * em, middle.y}, IM_COL32_WHITE, text.c_str());
+}
+
+// The axes of the camera frame, and a length at the distance of the target, in the lower left corner.
+void draw_axes_and_scale(const OrbitCamera& camera, ImVec2 corner, cv::Size viewport) {
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const float em = ImGui::GetFontSize(), arm = 1.8F * em;
+  const ImVec2 origin(corner.x + 2.6F * em, corner.y + static_cast<float>(viewport.height) - 3.4F * em);
+  const cv::Matx44d view = camera.view();
+  constexpr std::array<const char*, 3> kNames = {"x", "y", "z"};
+  const std::array<ImU32, 3> colours = {IM_COL32(240, 90, 80, 255), IM_COL32(90, 200, 90, 255),
+                                        IM_COL32(90, 150, 255, 255)};
+  for (int i = 0; i < 3; ++i) {
+    const ImVec2 end(origin.x + arm * static_cast<float>(view(0, i)),
+                     origin.y - arm * static_cast<float>(view(1, i)));
+    const auto k = static_cast<std::size_t>(i);
+    list.AddLine(origin, end, colours[k], em / 7);
+    list.AddText({end.x + em / 6, end.y - em / 2}, colours[k], kNames[k]);
+  }
+  const double mm_per_px = camera.distance_mm() / camera.focal_px(viewport);
+  const double length = nice_length(6 * static_cast<double>(em) * mm_per_px);
+  const float width = static_cast<float>(length / mm_per_px);
+  const ImVec2 left(corner.x + 6 * em, corner.y + static_cast<float>(viewport.height) - em);
+  const ImU32 colour = ImGui::GetColorU32(ImGuiCol_Text);
+  list.AddLine(left, {left.x + width, left.y}, colour, em / 8);
+  for (const float x : {left.x, left.x + width})
+    list.AddLine({x, left.y - em / 4}, {x, left.y + em / 4}, colour, em / 8);
+  list.AddText({left.x, left.y - 1.4F * em}, colour, fmt::format("{:g} mm", length).c_str());
 }
 
 }  // namespace
@@ -153,7 +244,9 @@ void draw_cloud(CloudStyle& style, CloudPanelState& state, const Frame& frame, c
     if (texture != ImTextureID())
       ImGui::GetWindowDrawList()->AddImage(texture, corner, {corner.x + size.x, corner.y + size.y}, {0, 1},
                                            {1, 0});
-    if (style.fixations) draw_fixations(state, attention.fixations, corner, viewport);
+    draw_axes_and_scale(state.camera, corner, viewport);
+    if (style.fixations) draw_fixations(state, frame, attention.fixations, corner, viewport);
+    draw_measured(state, corner, viewport);
   }
   ImGui::EndChild();
 }

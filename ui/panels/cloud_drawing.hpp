@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <vector>
 
 #include <imgui.h>
 #include <opencv2/core.hpp>
@@ -16,7 +17,9 @@ namespace saccade {
 /// The viewpoint.
 struct CloudPanelState {
   OrbitCamera camera;
-  bool placed = false;  ///< false: the next frame starts from the sensor's own view
+  std::vector<cv::Point3d> measured;  ///< ends of a distance, mm; empty, or two
+  int highlighted = -1;               ///< index of the fixation to point out; -1 = none
+  bool placed = false;                ///< false: the next frame starts from the sensor's own view
 };
 
 /// Draws the panel: a row of choices, and below it, in the room that is left, the cloud and the fixations.

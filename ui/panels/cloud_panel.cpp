@@ -10,9 +10,18 @@ void CloudPanel::draw(ViewContext& view) {
   view.outputs.normals = style.lit || style.needles;
   const Computed& computed = view.result->a;
   if (!picture_) picture_ = view.graphics.make_cloud_picture();
-  const CloudFrame frame{view.result->frame(), computed.smooth, computed.result.maps.normals,
-                         view.state.style, view.result->serial};
-  draw_cloud(style, state_, view.result->frame(), computed.result.attention, [&](cv::Size size) {
+  const Frame shown = view.shown_frame();
+  const CloudFrame frame{shown, computed.smooth, computed.result.maps.normals, view.state.style,
+                         view.result->serial};
+  state_.highlighted = view.locked >= 0 ? view.locked : view.hovered_row;
+  state_.measured.clear();
+  if (const auto a = view.point_at(view.pinned), b = view.point_at(view.measured); a && b)
+    state_.measured = {*a, *b};
+  if (view.centre_on && view.centre_on->position_mm.z > 0) {
+    const cv::Point3f& p = view.centre_on->position_mm;
+    state_.camera.look_at({static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z)});
+  }
+  draw_cloud(style, state_, shown, computed.result.attention, [&](cv::Size size) {
     return as_imgui(picture_->render(frame, style, state_.camera, size, view.state.theme == Theme::light));
   });
 }

@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <array>
 #include <string>
 #include <vector>
 
@@ -32,7 +34,9 @@ void draw_range(ViewContext& view, const char* id, std::optional<ValueRange>& ra
   ImGui::PushID(id);
   bool locked = range.has_value();
   if (ImGui::Checkbox("Lock range", &locked)) range = locked ? std::optional(automatic) : std::nullopt;
-  explain("Keeps the range from frame to frame, so that colours can be compared");
+  explain(
+      "Keeps the range of the smoothed map, or of depth, from frame to frame, so that colours can be "
+      "compared");
   if (range) {
     ImGui::SameLine(view.px(112) + ImGui::GetStyle().WindowPadding.x);
     ImGui::SetNextItemWidth(-1);
@@ -42,25 +46,72 @@ void draw_range(ViewContext& view, const char* id, std::optional<ValueRange>& ra
   ImGui::PopID();
 }
 
+// How many pixels have which depth, with the range of the colours.
+void draw_depths(ViewContext& view, ValueRange range) {
+  constexpr std::size_t kBins = 64;
+  constexpr int kEvery = 5;  // rows and columns of the sample
+  const cv::Mat1f& depth = view.result->frame().depth_mm;
+  double farthest = 0;
+  cv::minMaxLoc(depth, nullptr, &farthest);
+  if (!(farthest > 0)) return wrapped_text("This frame has no depth.", Tone::quiet);
+  std::array<float, kBins> bins{};
+  float nearest = static_cast<float>(farthest);
+  for (int r = 0; r < depth.rows; r += kEvery)
+    for (int c = 0; c < depth.cols; c += kEvery) {
+      const float z = depth(r, c);
+      if (!(z > 0)) continue;
+      nearest = std::min(nearest, z);
+      const auto bin = static_cast<std::size_t>(kBins * static_cast<double>(z) / (farthest + 1));
+      bins[std::min(bin, kBins - 1)] += 1;
+    }
+  const std::string text = fmt::format("{:.0f} .. {:.0f} mm", nearest, farthest);
+  ImGui::PlotHistogram("##depths", bins.data(), static_cast<int>(kBins), 0, text.c_str(), 0,
+                       *std::ranges::max_element(bins), {ImGui::GetContentRegionAvail().x, view.px(56)});
+  explain(
+      "How often each depth occurs, from 0 to the largest reading, with its smallest and largest. The lines "
+      "are "
+      "the range of the colours: without a lock, the 1st to the 99th percentile");
+  const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
+  for (const float end : {range.low, range.high}) {
+    const float x = low.x + (high.x - low.x) * std::min(1.0F, end / static_cast<float>(farthest));
+    ImGui::GetWindowDrawList()->AddLine({x, low.y}, {x, high.y}, view.colours->accent, view.px(1.5));
+  }
+}
+
+void draw_text_size(ViewContext& view) {
+  named_row("Text size", "Of text and controls; automatic = as the screen reports");
+  const double now = view.state.ui_scale;
+  const auto name = [](double scale) {
+    return scale > 0 ? fmt::format("{:.0f} %", 100 * scale) : "automatic";
+  };
+  if (!ImGui::BeginCombo("##text_size", name(now).c_str())) return;
+  for (const double scale : {0.0, 0.75, 0.9, 1.0, 1.15, 1.3, 1.5, 1.75, 2.0})
+    if (ImGui::Selectable(name(scale).c_str(), scale == now)) view.state.ui_scale = scale;
+  ImGui::EndCombo();
+}
+
 }  // namespace
 
 void draw_display_panel(ViewContext& view) {
   OverlayStyle& style = view.state.style;
-  named_row("Background");
+  named_row("Background", "The picture below the map: the colour image, or depth in colours");
   int background = static_cast<int>(style.background);
   if (segments(view, "background", {"colour", "depth"}, background))
     style.background = static_cast<Background>(background);
   if (style.background == Background::depth) {
-    named_row("Depth colours");
+    named_row("Depth colours", "Near is the bright end; black has no reading");
     palette_combo("##depth_palette", style.depth.palette);
     const auto automatic = view.result ? percentile_range(view.result->frame().depth_mm, 100) : std::nullopt;
-    draw_range(view, "depth", style.depth.range_mm, automatic.value_or(ValueRange{500, 4000}), 10, "%.0f mm");
+    const ValueRange range = automatic.value_or(ValueRange{500, 4000});
+    if (view.result) draw_depths(view, style.depth.range_mm.value_or(range));
+    draw_range(view, "depth", style.depth.range_mm, range, 10, "%.0f mm");
   }
   ImGui::Spacing();
   ImGui::Checkbox("Saliency map", &view.state.show_map);
   explain(with_key("Shows the saliency map over the picture", Action::toggle_map));
   if (view.state.show_map) {
-    named_row("Map colours");
+    named_row("Map colours",
+              "turbo is a perceptually even rainbow; viridis and inferno also grow evenly in lightness");
     palette_combo("##palette", style.map.palette);
     named_row("Opacity", "Of the most salient pixel; less salient pixels are more transparent");
     share_slider("##opacity", style.map.opacity);
@@ -68,6 +119,13 @@ void draw_display_panel(ViewContext& view) {
     share_slider("##threshold", style.map.threshold);
     const ValueRange automatic =
         view.result ? shown_range(view.result->a.smooth, MapStyle{}) : ValueRange{0, 1};
+    if (view.state.comparing()) {
+      ImGui::Checkbox("A and B on one range", &view.state.common_range);
+      explain(
+          "The same colour is the same value in both maps; applies where both are of one model and no range "
+          "is "
+          "locked");
+    }
     draw_range(view, "map", style.map.range, automatic, 0.01F, "%.2f");
   }
   ImGui::Spacing();
@@ -79,6 +137,7 @@ void draw_display_panel(ViewContext& view) {
   ImGui::SameLine(0, view.px(14));
   ImGui::Checkbox("Outlines", &style.outlines);
   explain(with_key("Outlines of the proto-objects", Action::toggle_outlines));
+  draw_text_size(view);
 }
 
 }  // namespace saccade

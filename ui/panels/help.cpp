@@ -1,49 +1,144 @@
+#include <array>
+#include <utility>
+
 #include <imgui.h>
 
 #include "ui/panels/panels.hpp"
 #include "ui/panels/widgets.hpp"
 
 namespace saccade {
+namespace {
 
-void draw_help(ViewContext& view, bool& open) {
-  constexpr const char* kTitle = "Keyboard shortcuts";
-  if (open && !ImGui::IsPopupOpen(kTitle)) ImGui::OpenPopup(kTitle);
-  const ImVec2 size = ImGui::GetIO().DisplaySize;
-  ImGui::SetNextWindowPos({size.x / 2, size.y / 2}, ImGuiCond_Always, {0.5F, 0.5F});
-  ImGui::SetNextWindowSizeConstraints({0, 0}, {size.x * 0.96F, size.y * 0.94F});
-  if (!ImGui::BeginPopupModal(kTitle, &open, ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoMove))
-    return;
-  if (ImGui::BeginTable("groups", 2, ImGuiTableFlags_None)) {
-    std::string_view group;
-    const float left = ImGui::GetStyle().WindowPadding.x;  // SameLine() counts from the column
-    const auto list = shortcuts();
-    ImGui::TableNextColumn();
-    for (std::size_t i = 0; i < list.size(); ++i) {
-      const Shortcut& s = list[i];
-      if (s.group != group) {
-        if (!group.empty()) ImGui::Dummy({0, view.px(6)});
-        if (s.group == "Picture") ImGui::TableNextColumn();
-        group = s.group;
-        ImGui::PushFont(view.fonts.bold);
-        ImGui::TextUnformatted(group.data(), group.data() + group.size());
-        ImGui::PopFont();
-      }
-      if (i > 0 && list[i - 1].action == s.action) continue;  // listed with its first key
-      std::string keys = key_name(s);
-      for (std::size_t k = i + 1; k < list.size() && list[k].action == s.action; ++k)
-        keys += "  " + key_name(list[k]);
-      ImGui::TextColored(as_vec4(view.colours->accent), "%s", keys.c_str());
-      ImGui::SameLine(left + view.px(150));
-      ImGui::TextUnformatted(s.text.data(), s.text.data() + s.text.size());
-      ImGui::SameLine(left + view.px(400));
-      ImGui::NewLine();
-    }
-    ImGui::EndTable();
+using Row = std::pair<const char*, const char*>;
+
+constexpr std::array<Row, 9> kMouse = {{
+    {"Wheel", "zooms at the pointer"},
+    {"Drag", "moves the picture, turns the points"},
+    {"Right drag, Shift+drag", "moves the points"},
+    {"Click", "pins the probe; on a mark: follows its fixation"},
+    {"Shift+click, while pinned", "measures the distance in space between both pixels"},
+    {"Arrow keys, while pinned", "move the probe by a pixel, with Shift by ten"},
+    {"Esc", "frees the probe and the fixation, closes a list"},
+    {"Double click", "fits the picture; in the table: centres"},
+    {"Drop a file", "opens it"},
+}};
+
+constexpr std::array<Row, 8> kSeen = {{
+    {"Colours over the picture",
+     "The saliency map, smoothed for display. Strong colours mark what attracts attention; the legend below "
+     "the "
+     "picture has the values. Weak values are transparent."},
+    {"Numbered discs", "Fixations, in the order in which the selector attends to them; the first is green."},
+    {"Lines between them", "The scan path, from each fixation to the next."},
+    {"Outlines", "Proto-objects: the surface that the selector takes as one object around a fixation."},
+    {"saliency",
+     "Everywhere the value of the map at a pixel as it was computed, as in the files. The legend and the "
+     "colours are "
+     "of the smoothed map, whose peaks are lower; where a number is of the smoothed map, it says so."},
+    {"Bars of the time line",
+     "The saliency of the strongest fixation of each computed frame; grey where the settings have changed "
+     "since."},
+    {"Draft", "A quick result from coarser levels, while the exact one is computed."},
+    {"A and B", "Two settings on the same frame; Tuning edits the chosen one."},
+}};
+
+constexpr std::array<Row, 14> kGlossary = {{
+    {"Saliency", "How much a place stands out from its surroundings and so attracts attention."},
+    {"Saccade", "A rapid eye movement from one fixation to the next."},
+    {"Fixation", "A place at which the gaze rests; here an attention point of the map."},
+    {"Scan path", "The sequence of fixations."},
+    {"3D symmetry",
+     "The model of the paper: how well the points in a window mirror each other at a plane through its "
+     "middle, in space instead of in the image."},
+    {"Kernel", "The window around a pixel within which symmetry is measured."},
+    {"Pyramid level",
+     "The image at half the size of the level before; small windows there cover large objects."},
+    {"Length scale",
+     "The unit in which distances of point pairs are weighed: relative to the window, or millimetres."},
+    {"Normalisation",
+     "Weighs the map of each level before the levels are added: not at all (none), by its maximum "
+     "(max), or so that maps with few strong peaks count more (itti)."},
+    {"Selector", "Chooses fixations in a map."},
+    {"Proto-object", "A region that attention treats as one thing before it is recognised."},
+    {"Winner-take-all",
+     "A network whose strongest cell wins and is then inhibited, so that the next one can win (wta)."},
+    {"Inhibition of return", "A place that has been attended is suppressed for a while."},
+    {"Registration", "Depth as seen from the colour camera, so that both images match pixel by pixel."},
+}};
+
+template <std::size_t N>
+void draw_rows(ViewContext& view, const std::array<Row, N>& rows, double width) {
+  for (const auto& [name, text] : rows) {
+    ImGui::TextColored(as_vec4(view.colours->accent), "%s", name);
+    ImGui::SameLine(ImGui::GetStyle().WindowPadding.x + view.px(width));
+    ImGui::PushTextWrapPos(0);
+    ImGui::TextUnformatted(text);
+    ImGui::PopTextWrapPos();
   }
-  ImGui::Separator();
-  ImGui::TextDisabled("Mouse on the picture: wheel zooms, drag moves, double click fits it.");
-  if (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape))) open = false;
-  if (!open) ImGui::CloseCurrentPopup();
+}
+
+void draw_keys(ViewContext& view, std::string_view group) {
+  const auto list = shortcuts();
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    const Shortcut& s = list[i];
+    if (s.group != group || (i > 0 && list[i - 1].action == s.action)) continue;  // listed with its first key
+    std::string keys = key_name(s);
+    for (std::size_t k = i + 1; k < list.size() && list[k].action == s.action; ++k)
+      keys += "  " + key_name(list[k]);
+    ImGui::TextColored(as_vec4(view.colours->accent), "%s", keys.c_str());
+    ImGui::SameLine(ImGui::GetStyle().WindowPadding.x + view.px(140));
+    ImGui::TextUnformatted(s.text.data(), s.text.data() + s.text.size());
+  }
+}
+
+void draw_heading(ViewContext& view, const char* text) {
+  ImGui::Dummy({0, view.px(2)});
+  ImGui::PushFont(view.fonts.bold);
+  ImGui::TextUnformatted(text);
+  ImGui::PopFont();
+}
+
+void draw_keys_and_mouse(ViewContext& view) {
+  if (!ImGui::BeginTable("keys", 2)) return;
+  ImGui::TableNextColumn();
+  for (const char* group : {"Playing", "Tuning"}) {
+    draw_heading(view, group);
+    draw_keys(view, group);
+  }
+  ImGui::TableNextColumn();
+  for (const char* group : {"Picture", "General"}) {
+    draw_heading(view, group);
+    draw_keys(view, group);
+  }
+  ImGui::EndTable();
+  draw_heading(view, "Mouse");
+  draw_rows(view, kMouse, 210);
+}
+
+}  // namespace
+
+void HelpDialog::draw(ViewContext& view) {
+  open_ = begin_dialog(view, "Help", opening_, 860);
+  if (!open_) return;
+  const float room = ImGui::GetIO().DisplaySize.y * 0.94F - ImGui::GetFrameHeight() * 3;
+  ImGui::BeginChild("pages", {0, std::min(view.px(640), room)});
+  if (ImGui::BeginTabBar("tabs")) {
+    if (ImGui::BeginTabItem("Keys and mouse")) {
+      draw_keys_and_mouse(view);
+      ImGui::EndTabItem();
+    }
+    if (ImGui::BeginTabItem("What you see")) {
+      draw_rows(view, kSeen, 200);
+      ImGui::EndTabItem();
+    }
+    if (ImGui::BeginTabItem("Glossary")) {
+      draw_rows(view, kGlossary, 170);
+      ImGui::EndTabItem();
+    }
+    ImGui::EndTabBar();
+  }
+  ImGui::EndChild();
+  if (std::exchange(closing_, false)) ImGui::CloseCurrentPopup();
   ImGui::EndPopup();
 }
 

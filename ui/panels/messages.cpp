@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <functional>
+
 #include <imgui.h>
 
 #include "ui/panels/panels.hpp"
@@ -6,73 +9,119 @@
 namespace saccade {
 
 void ViewContext::notify(std::string line) {
-  constexpr double kNoticeTime_s = 3;
+  constexpr double kNoticeTime_s = 4;
   notice = std::move(line);
   notice_until = ImGui::GetTime() + kNoticeTime_s;
 }
 
+std::optional<cv::Point3d> ViewContext::point_at(std::optional<cv::Point> pixel) const {
+  if (!result || !pixel || !cv::Rect({}, result->frame().size()).contains(*pixel)) return std::nullopt;
+  const auto z = static_cast<double>(result->frame().depth_mm(*pixel));
+  if (!(z > 0)) return std::nullopt;
+  return result->frame().intrinsics.point_mm(pixel->y, pixel->x, z);
+}
+
 namespace {
+
+struct Bar {
+  const char* id;
+  const char* dismiss;  // the name of its button in the log
+  unsigned back, colour;
+};
+
+struct BarButton {
+  const char* label;
+  const char* place;  // in the log
+  std::function<void()> press;
+};
+
+float width_of(const char* label) {
+  return ImGui::CalcTextSize(label).x + 2 * ImGui::GetStyle().FramePadding.x;
+}
+
+// A wrapped text with buttons at its right. Returns whether the user dismissed it.
+bool draw_bar(ViewContext& view, const Bar& bar, const std::string& text,
+              const std::vector<BarButton>& buttons) {
+  const float gap = ImGui::GetStyle().ItemInnerSpacing.x;
+  float right = width_of("×");
+  for (const BarButton& button : buttons) right += width_of(button.label) + gap;
+  const float wrap = std::max(view.px(80), ImGui::GetContentRegionAvail().x - right - view.px(36));
+  const float lines = ImGui::CalcTextSize(text.c_str(), nullptr, false, wrap - view.px(12)).y;
+  const float height = std::max(lines, ImGui::GetFrameHeight()) + 2 * view.px(8);
+  ImGui::PushStyleColor(ImGuiCol_ChildBg, as_vec4(bar.back));
+  ImGui::BeginChild(bar.id, {0, height}, false,
+                    ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_AlwaysUseWindowPadding);
+  ImGui::PushTextWrapPos(wrap);
+  ImGui::PushStyleColor(ImGuiCol_Text, as_vec4(bar.colour));
+  ImGui::TextUnformatted(text.c_str());
+  ImGui::PopStyleColor();
+  ImGui::PopTextWrapPos();
+  ImGui::SetCursorPos({ImGui::GetWindowWidth() - view.px(12) - right, view.px(8)});
+  for (const BarButton& button : buttons) {
+    if (ImGui::Button(button.label)) button.press();
+    log_place(view, button.place);
+    ImGui::SameLine(0, gap);
+  }
+  const bool dismissed = ImGui::Button("×");
+  log_place(view, bar.dismiss);
+  explain("Dismiss");
+  ImGui::EndChild();
+  ImGui::PopStyleColor();
+  return dismissed;
+}
 
 void draw_notes(ViewContext& view) {
   if (view.notes.empty()) return;
   std::string text;
   for (const std::string& note : view.notes) text += (text.empty() ? "" : "\n") + note;
-  const float wrap = ImGui::GetContentRegionAvail().x - view.px(60);
-  const float lines = ImGui::CalcTextSize(text.c_str(), nullptr, false, wrap - view.px(12)).y;
-  const float height = std::max(lines, ImGui::GetFrameHeight()) + 2 * view.px(8);
-  ImGui::PushStyleColor(ImGuiCol_ChildBg, as_vec4(view.colours->panel));
-  ImGui::BeginChild("notes", {0, height}, false,
-                    ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_AlwaysUseWindowPadding);
-  ImGui::PushTextWrapPos(wrap);
-  ImGui::PushStyleColor(ImGuiCol_Text, as_vec4(view.colours->warning));
-  ImGui::TextUnformatted(text.c_str());
-  ImGui::PopStyleColor();
-  ImGui::PopTextWrapPos();
-  ImGui::SetCursorPos({ImGui::GetWindowWidth() - view.px(12) - ImGui::GetFrameHeight(), view.px(8)});
-  if (ImGui::Button("×##notes")) view.notes.clear();
-  log_place(view, "dismiss notes");
-  explain("Dismiss");
-  ImGui::EndChild();
-  ImGui::PopStyleColor();
+  const Bar bar{"notes", "dismiss notes", view.colours->panel, view.colours->warning};
+  if (draw_bar(view, bar, text, {})) view.notes.clear();
+}
+
+void draw_connected(ViewContext& view) {
+  if (view.connected.empty()) return;
+  const DeviceChoice device = view.connected.back();
+  const Bar bar{"connected", "dismiss connected", view.colours->panel, view.colours->text};
+  const bool dismissed = draw_bar(view, bar, device.name + " was connected.",
+                                  {{"Open it", "open connected", [&] { view.open(device.source); }}});
+  if (dismissed) view.connected.pop_back();
+}
+
+void draw_recorded(ViewContext& view) {
+  if (view.recorded.empty()) return;
+  const Bar bar{"recorded", "dismiss recorded", view.colours->panel, view.colours->text};
+  const std::string file = view.recorded;
+  const bool dismissed =
+      draw_bar(view, bar, "Recorded " + file, {{"Play it", "play recorded", [&] { view.open(file); }}});
+  if (dismissed) view.recorded.clear();
+}
+
+// Each error stays until the user dismisses it; the rest of the window goes on working.
+void draw_errors(ViewContext& view) {
+  std::vector<BarButton> buttons;
+  if (view.source.phase == SessionState::Phase::ended)
+    buttons.push_back({"Try again", "try again", [&] { view.open(view.source.uri); }});
+  if (view.source.phase != SessionState::Phase::open)
+    buttons.push_back({"Open another…", "open another", [&] { view.act(Action::open_source); }});
+  const Bar bar{"error", "dismiss error", view.colours->error_back, view.colours->error};
+  int gone = -1;
+  for (int i = 0; i < static_cast<int>(view.errors.size()); ++i) {
+    ImGui::PushID(i);
+    if (draw_bar(view, bar, view.errors[static_cast<std::size_t>(i)], buttons)) gone = i;
+    ImGui::PopID();
+  }
+  if (gone >= 0) view.errors.erase(view.errors.begin() + gone);
 }
 
 }  // namespace
 
-// Each error stays until the user dismisses it; the rest of the window goes on working.
 void draw_messages(ViewContext& view) {
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {view.px(12), view.px(8)});
   draw_notes(view);
-  int gone = -1;
-  for (int i = 0; i < static_cast<int>(view.errors.size()); ++i) {
-    const std::string& line = view.errors[static_cast<std::size_t>(i)];
-    ImGui::PushID(i);
-    const float wrap = ImGui::GetContentRegionAvail().x - view.px(190);
-    const float text = ImGui::CalcTextSize(line.c_str(), nullptr, false, wrap).y;
-    const float height = std::max(text, ImGui::GetFrameHeight()) + 2 * view.px(8);
-    ImGui::PushStyleColor(ImGuiCol_ChildBg, as_vec4(view.colours->error_back));
-    ImGui::BeginChild("error", {0, height}, false,
-                      ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_AlwaysUseWindowPadding);
-    ImGui::PushTextWrapPos(wrap);
-    ImGui::PushStyleColor(ImGuiCol_Text, as_vec4(view.colours->error));
-    ImGui::TextWrapped("%s", line.c_str());
-    ImGui::PopStyleColor();
-    ImGui::PopTextWrapPos();
-    ImGui::SetCursorPos({ImGui::GetWindowWidth() - view.px(172), view.px(8)});
-    if (view.source.phase == SessionState::Phase::ended) {
-      if (ImGui::Button("Open another…")) view.act(Action::open_source);
-      ImGui::SameLine();
-    } else {
-      ImGui::SetCursorPosX(ImGui::GetWindowWidth() - view.px(12) - ImGui::GetFrameHeight());
-    }
-    if (ImGui::Button("×")) gone = i;
-    log_place(view, "dismiss error");
-    explain("Dismiss");
-    ImGui::EndChild();
-    ImGui::PopStyleColor();
-    ImGui::PopID();
-  }
+  draw_connected(view);
+  draw_recorded(view);
+  draw_errors(view);
   ImGui::PopStyleVar();
-  if (gone >= 0) view.errors.erase(view.errors.begin() + gone);
 }
 
 }  // namespace saccade

@@ -4,6 +4,7 @@
 #include <memory>
 #include <utility>
 
+#include "ui/panels/fixation_panel.hpp"
 #include "ui/panels/picture_drawing.hpp"
 #include "ui/panels/probe_panel.hpp"
 #include "ui/panels/sensor_panel.hpp"
@@ -26,10 +27,22 @@ void draw_performance_panel(ViewContext& view);
 
 /// A large message from `low` to `high`: why there is no picture yet, or that the sensor is lost. Nothing
 /// while frames come.
-void draw_state_banner(const ViewContext& view, ImVec2 low, ImVec2 high);
+void draw_state_banner(ViewContext& view, ImVec2 low, ImVec2 high);
 
-/// A window over the others, shown while `open`, which it clears when the user closes it.
-void draw_help(ViewContext& view, bool& open);
+/// The first words for a user who has asked for nothing, at the top left of an area, while view.welcome.
+void draw_welcome(ViewContext& view, ImVec2 low, ImVec2 high);
+
+/// The help over the window.
+class HelpDialog {
+ public:
+  /// Opens or closes it with the next draw().
+  void toggle() { (open_ ? closing_ : opening_) = true; }
+  bool is_open() const { return open_; }
+  void draw(ViewContext& view);
+
+ private:
+  bool opening_ = false, closing_ = false, open_ = false;
+};
 
 /// The side bar with its panels.
 class Sidebar {
@@ -43,31 +56,9 @@ class Sidebar {
 
  private:
   void draw_panel(ViewContext& view, SidebarPanel panel);
+  FixationPanel fixations_;
   ProbePanel probe_;
   SensorPanel sensors_;
-};
-
-/// Chooses a source: a path, a recent one, or one in a folder.
-class OpenDialog {
- public:
-  void show();
-  void draw(ViewContext& view);
-
- private:
-  bool opening_ = false, focus_ = false;
-  char text_[1024] = "";
-};
-
-/// Saves and loads settings as TOML.
-class SettingsDialog {
- public:
-  void show();
-  void draw(ViewContext& view);
-
- private:
-  bool opening_ = false;
-  char path_[1024] = "";
-  std::string error_;
 };
 
 /// The picture: one, two side by side, or two with a divider.
@@ -84,6 +75,7 @@ class PicturePanel {
   struct Layers;
   void draw_side(ViewContext& view, const PictureSide& side);
   void handle_mouse(ViewContext& view, const PictureSide& side);
+  void click(ViewContext& view, const PictureSide& side);
   std::unique_ptr<Layers> layers_;
 };
 

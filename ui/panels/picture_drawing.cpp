@@ -3,14 +3,23 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "models/model.hpp"
 #include "ui/panels/widgets.hpp"
+#include "ui/session/map_difference.hpp"
 
 namespace saccade {
+
+bool shows_difference(const ViewContext& view) {
+  const ViewResult* result = view.result.get();
+  return result != nullptr && result->compared && view.state.comparison == Comparison::difference &&
+         result->a.smooth.size() == result->b.smooth.size();
+}
+
 namespace {
 
 void draw_shapes(ImDrawList& draw, const OverlayShapes& shapes, ImVec2 corner) {
@@ -52,11 +61,30 @@ void draw_chip(const ViewContext& view, ImVec2 corner, const std::string& text, 
                text.c_str(), nullptr, widest > 0 ? std::max(1.0F, widest - 2 * pad.x) : 0.0F);
 }
 
-// The model and its kernel, at the top; only A or B where there is no room.
+// Why the picture is not what the user expects; empty = it is.
+std::string remark(const ViewContext& view, const Computed& computed) {
+  const Frame& frame = view.result->frame();
+  const OverlayStyle& style = view.state.style;
+  if (frame.colour.empty() && style.background == Background::colour &&
+      view.last_colour.size() == frame.size())
+    return fmt::format("no colour in this frame: that of frame {}", view.last_colour_index);
+  if (!view.state.show_map || !style.map.range || !computed.error.empty()) return "";
+  double largest = 0;
+  cv::minMaxLoc(computed.smooth, nullptr, &largest);
+  const ValueRange& range = *style.map.range;
+  if (largest <= static_cast<double>(range.low) + 0.01 * static_cast<double>(range.high - range.low))
+    return fmt::format("the map is below the locked range (reaches {:.2g})", largest);
+  return "";
+}
+
+// The model and its kernel, above the picture; only A or B where there is no room. Below it the error.
 void draw_title(const ViewContext& view, const Computed& computed, const PictureSide& side) {
   const float pad = view.px(8), room = side.clip_high.x - side.clip_low.x - 2 * pad;
   const Settings& s = computed.settings;
-  const std::string letter = !view.state.comparing() ? "" : side.is_b ? "B" : "A";
+  const std::string letter = shows_difference(view)    ? "A − B"
+                             : !view.state.comparing() ? ""
+                             : side.is_b               ? "B"
+                                                       : "A";
   std::string text = fmt::format("{}{}{}", letter, letter.empty() ? "" : "  ", s.model);
   if (computed.draft)
     text += fmt::format("  draft: kernel {} on levels {}..{}", s.kernel, s.first_level, s.last_level);
@@ -64,14 +92,17 @@ void draw_title(const ViewContext& view, const Computed& computed, const Picture
     text += fmt::format("  kernel {}", s.kernel);
   if (chip_size(view, text).x > room) text = letter;
   const float width = chip_size(view, text).x;
-  const float y = side.clip_low.y + pad;
-  if (!text.empty() && width <= room) {
-    const bool at_right = side.is_b && view.state.comparison == Comparison::split;
+  const float y = side.clip_low.y - side.strip + view.px(4);
+  const bool at_right = side.is_b && view.state.comparison == Comparison::split;
+  if (!text.empty() && width <= room)
     draw_chip(view, {at_right ? side.clip_high.x - pad - width : side.clip_low.x + pad, y}, text,
               view.colours->on_picture);
-  }
+  const std::string note = remark(view, computed);
+  if (const float beside = chip_size(view, note).x;
+      !note.empty() && !at_right && width + beside + pad <= room)
+    draw_chip(view, {side.clip_low.x + 2 * pad + width, y}, note, colours_of(Theme::dark).warning);
   if (!computed.error.empty() && room > view.px(60))
-    draw_chip(view, {side.clip_low.x + pad, y + chip_size(view, "A").y + view.px(4)}, computed.error,
+    draw_chip(view, {side.clip_low.x + pad, side.clip_low.y + pad}, computed.error,
               colours_of(Theme::dark).error, room);
 }
 
@@ -80,7 +111,7 @@ struct Legend {
   std::function<cv::Vec3b(double share)> colour;  // BGR
 };
 
-// Returns its height; draws nothing and returns 0 where there is no room.
+// Returns its width; draws nothing and returns 0 where there is no room.
 float draw_legend(const ViewContext& view, const Legend& legend, ImVec2 right_bottom, float room) {
   const ImVec2 low = ImGui::CalcTextSize(legend.low.c_str()), high = ImGui::CalcTextSize(legend.high.c_str());
   const float pad = view.px(6), texts = low.x + high.x + 4 * pad;
@@ -100,54 +131,113 @@ float draw_legend(const ViewContext& view, const Legend& legend, ImVec2 right_bo
     draw.AddRectFilled({x0, y - bar / 2}, {x0 + width / kPieces + 0.5F, y + bar / 2},
                        IM_COL32(c[2], c[1], c[0], 255));
   }
-  return height;
+  return texts + width;
 }
 
 Legend map_legend(const Computed& computed, const MapStyle& style) {
   const ValueRange range = shown_range(computed.smooth, style);
-  return {fmt::format("{:.2g}", range.low), fmt::format("{:.2g}", range.high), [&style](double share) {
+  return {fmt::format("smoothed saliency {:.2g}", range.low), fmt::format("{:.2g}", range.high),
+          [&style](double share) {
             // As on the picture, the strength is the square root of the place in the range.
             return colours_of(style.palette)[static_cast<std::size_t>(255 * std::sqrt(share))];
           }};
 }
 
-// The legends, stacked in the lower right corner; returns the y of their top.
+Legend difference_legend(const ViewResult& result) {
+  const float largest = map_difference(result.a.smooth, result.b.smooth).largest;
+  return {fmt::format("B stronger by {:.2g}", largest), fmt::format("A by {:.2g}", largest),
+          [](double share) { return difference_colour(2 * share - 1); }};
+}
+
+// The legends, from the right end of the strip below the picture; returns the width that they leave.
 float draw_legends(const ViewContext& view, const Computed& computed, const PictureSide& side,
                    std::optional<ValueRange> depth_range) {
-  const float pad = view.px(8), room = side.clip_high.x - side.clip_low.x - 2 * pad;
-  ImVec2 at{side.clip_high.x - pad, side.clip_high.y - pad};
+  const float pad = view.px(8);
+  float room = side.clip_high.x - side.clip_low.x - 2 * pad;
+  const float bottom = side.clip_high.y + side.strip - view.px(3);
   const auto add = [&](const Legend& legend) {
-    const float height = draw_legend(view, legend, at, room);
-    if (height > 0) at.y -= height + view.px(4);
+    const float width = draw_legend(view, legend, {side.clip_low.x + pad + room, bottom}, room);
+    if (width > 0) room -= width + pad;
   };
-  if (view.state.show_map && computed.error.empty()) add(map_legend(computed, view.state.style.map));
+  const MapStyle style = shown_map_style(view.state, *view.result);
+  if (view.state.show_map && shows_difference(view))
+    add(difference_legend(*view.result));
+  else if (view.state.show_map && computed.error.empty())
+    add(map_legend(computed, style));
   if (depth_range)
     add({fmt::format("{:.0f} mm", depth_range->low), fmt::format("{:.0f} mm", depth_range->high),
          [&](double share) { return depth_colour(view.state.style.depth.palette, share); }});
-  return at.y;
+  return room;
 }
 
-// The values under the mouse; beside the legends, or above them where there is no room.
-void draw_pointer(const ViewContext& view, const Computed& computed, const PictureSide& side,
-                  float legends_top) {
-  if (!view.pointer || view.pointer_on_b != side.is_b) return;
-  const cv::Point p = *view.pointer;
-  const float depth = view.result->frame().depth_mm(p), pad = view.px(8);
-  const std::string text =
-      fmt::format("row {}  col {}   {}   saliency {:.2f}", p.y, p.x,
-                  depth > 0 ? fmt::format("{:.0f} mm", depth) : "no depth", computed.result.maps.master(p));
-  const ImVec2 size = chip_size(view, text);
-  const float widest_legend = view.px(96 + 24) + ImGui::CalcTextSize("00000 mm00000 mm").x;
-  const bool beside = side.clip_high.x - side.clip_low.x > size.x + widest_legend + 3 * pad;
-  const float bottom = beside ? side.clip_high.y - pad : legends_top;
-  draw_chip(view, {side.clip_low.x + pad, bottom - size.y}, text, view.colours->on_picture);
+// The values at the pinned pixel, or under the mouse, in the strip below the picture; as many as there is
+// room for.
+void draw_pointer(const ViewContext& view, const Computed& computed, const PictureSide& side, float room) {
+  const std::optional<cv::Point> pixel = view.pinned ? view.pinned : view.pointer;
+  const bool on_b = view.pinned ? view.pinned_on_b : view.pointer_on_b;
+  const cv::Mat1f& map = computed.result.maps.master;
+  if (!pixel || on_b != side.is_b || !cv::Rect({}, map.size()).contains(*pixel)) return;
+  const cv::Point p = *pixel;
+  const float depth = view.result->frame().depth_mm(p);
+  const std::string mm = depth > 0 ? fmt::format("{:.0f} mm", depth) : "no depth";
+  const std::string saliency = fmt::format("saliency {:.2f}", map(p));
+  const std::string smoothed = fmt::format("smoothed {:.2f}", computed.smooth(p));
+  for (const std::string& text :
+       {fmt::format("row {}  col {}   {}   {}   {}", p.y, p.x, mm, saliency, smoothed),
+        fmt::format("{}   {}   {}", mm, saliency, smoothed), fmt::format("{}   {:.2f}", mm, map(p))}) {
+    const ImVec2 size = chip_size(view, text);
+    if (size.x > room) continue;
+    const ImVec2 corner{side.clip_low.x + view.px(8), side.clip_high.y + side.strip - view.px(3) - size.y};
+    return draw_chip(view, corner, text, view.colours->on_picture);
+  }
+}
+
+// A cross at the pinned pixel.
+void draw_pin(const ViewContext& view, const PictureSide& side, const PictureView& picture) {
+  if (!view.pinned || view.pinned_on_b != side.is_b) return;
+  const cv::Point2d at = picture.to_panel({view.pinned->x + 0.5, view.pinned->y + 0.5});
+  const float x = side.corner.x + static_cast<float>(at.x), y = side.corner.y + static_cast<float>(at.y);
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  for (const auto& [colour, width] : {std::pair(IM_COL32(0, 0, 0, 200), 3.5), {view.colours->accent, 1.5}}) {
+    draw.AddLine({x - view.px(11), y}, {x - view.px(4), y}, colour, view.px(width));
+    draw.AddLine({x + view.px(4), y}, {x + view.px(11), y}, colour, view.px(width));
+    draw.AddLine({x, y - view.px(11)}, {x, y - view.px(4)}, colour, view.px(width));
+    draw.AddLine({x, y + view.px(4)}, {x, y + view.px(11)}, colour, view.px(width));
+  }
+}
+
+// The distance between the pinned pixel and a second one, in space.
+void draw_distance(const ViewContext& view, const PictureSide& side, const PictureView& picture) {
+  if (!view.pinned || !view.measured || view.pinned_on_b != side.is_b) return;
+  const auto on_screen = [&](cv::Point pixel) {
+    const cv::Point2d at = picture.to_panel({pixel.x + 0.5, pixel.y + 0.5});
+    return ImVec2(side.corner.x + static_cast<float>(at.x), side.corner.y + static_cast<float>(at.y));
+  };
+  const ImVec2 from = on_screen(*view.pinned), to = on_screen(*view.measured);
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  draw.AddLine(from, to, IM_COL32(0, 0, 0, 200), view.px(3.5));
+  draw.AddLine(from, to, view.colours->accent, view.px(1.5));
+  const auto a = view.point_at(view.pinned), b = view.point_at(view.measured);
+  draw_chip(view, {(from.x + to.x) / 2, (from.y + to.y) / 2},
+            a && b ? fmt::format("{:.0f} mm", cv::norm(*a - *b)) : "no depth at one end",
+            view.colours->on_picture);
+}
+
+// Rings around the locked fixation and the one under the mouse, in picture or table.
+void draw_rings(const ViewContext& view, const PictureSide& side, const OverlayShapes& shapes) {
+  if (side.is_b) return;
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  for (const int index : {view.hovered_row, view.hovered_mark, view.locked}) {
+    if (index < 0 || index >= static_cast<int>(shapes.marks.size())) continue;
+    const auto& mark = shapes.marks[shapes.marks.size() - 1 - static_cast<std::size_t>(index)];
+    const ImVec2 centre{side.corner.x + mark.centre.x, side.corner.y + mark.centre.y};
+    draw.AddCircle(centre, mark.radius + view.px(3), view.colours->accent, 0,
+                   view.px(index == view.locked ? 3 : 1.5));
+  }
 }
 
 // The tool tip of the fixation under the mouse.
-void explain_fixation(const Computed& computed, const OverlayShapes& shapes, cv::Point2d at) {
-  const int rank = mark_under(shapes, at);
-  if (rank < 0) return;
-  const Fixation& f = computed.result.attention.fixations[static_cast<std::size_t>(rank)];
+void explain_fixation(const Fixation& f, int rank) {
   std::string text =
       fmt::format("Fixation {}\nrow {}, column {}\nsaliency {:.3f}", rank + 1, f.row, f.col, f.saliency);
   if (f.confidence) text += fmt::format("\nconfidence {:.2f}", *f.confidence);
@@ -157,6 +247,7 @@ void explain_fixation(const Computed& computed, const OverlayShapes& shapes, cv:
   if (f.proto_object.pixels > 0)
     text += fmt::format("\nobject of {} pixels, {:.0f} x {:.0f} x {:.0f} mm", f.proto_object.pixels,
                         f.proto_object.extent_mm.x, f.proto_object.extent_mm.y, f.proto_object.extent_mm.z);
+  text += "\nA click follows it from frame to frame";
   ImGui::SetTooltip("%s", text.c_str());
 }
 
@@ -176,13 +267,21 @@ void draw_over_picture(ViewContext& view, const PictureSide& side, const Picture
                side.clip_low,
                side.clip_high,
                static_cast<float>(picture.scale())});
-  draw_title(view, computed, side);
-  const float legends_top = draw_legends(view, computed, side, depth_range);
-  draw_pointer(view, computed, side, legends_top);
+  draw_rings(view, side, shapes);
+  draw_pin(view, side, picture);
+  draw_distance(view, side, picture);
   draw.PopClipRect();
+  draw.PushClipRect({side.clip_low.x, side.clip_low.y - side.strip},
+                    {side.clip_high.x, side.clip_high.y + side.strip}, false);
+  draw_title(view, computed, side);
+  draw_pointer(view, computed, side, draw_legends(view, computed, side, depth_range));
+  draw.PopClipRect();
+  if (!view.pointer || view.pointer_on_b != side.is_b || ImGui::IsMouseDown(ImGuiMouseButton_Left)) return;
   const ImVec2 mouse = ImGui::GetIO().MousePos;
-  if (view.pointer && view.pointer_on_b == side.is_b && !ImGui::IsMouseDown(ImGuiMouseButton_Left))
-    explain_fixation(computed, shapes, as_point({mouse.x - side.corner.x, mouse.y - side.corner.y}));
+  const int mark = mark_under(shapes, as_point({mouse.x - side.corner.x, mouse.y - side.corner.y}));
+  if (mark < 0) return;
+  if (!side.is_b) view.hovered_mark = mark;
+  explain_fixation(computed.result.attention.fixations[static_cast<std::size_t>(mark)], mark);
 }
 
 void draw_divider(ViewContext& view, const PictureSide& whole) {

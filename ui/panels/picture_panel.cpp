@@ -7,6 +7,7 @@
 
 #include "ui/panels/panels.hpp"
 #include "ui/panels/widgets.hpp"
+#include "ui/session/map_difference.hpp"
 
 namespace saccade {
 namespace {
@@ -21,7 +22,7 @@ struct PicturePanel::Layers {
   struct Side {
     std::unique_ptr<PictureTexture> texture;  // made with the first picture
     std::int64_t serial = 0;
-    bool map = false;
+    bool map = false, difference = false;
     OverlayStyle style;
   };
   cv::Mat3b background;
@@ -34,8 +35,8 @@ struct PicturePanel::Layers {
   PictureView view;
   bool dragging = false, dragging_divider = false;
 
-  void update_background(const ViewResult& result, const OverlayStyle& style) {
-    const Frame& frame = result.frame();  // stays the same when only the settings change
+  void update_background(const ViewContext& context, const OverlayStyle& style) {
+    const Frame frame = context.shown_frame();  // stays the same when only the settings change
     if (index == frame.index && timestamp_us == frame.timestamp_us && background_style == style.background &&
         depth_style == style.depth)
       return;
@@ -49,20 +50,28 @@ struct PicturePanel::Layers {
 
   void update(Side& side, const Computed& computed, ViewContext& context) const {
     const ViewState& state = context.state;
-    const OverlayStyle& style = state.style;
-    const std::int64_t serial = context.result->serial;
-    if (side.serial == serial && side.map == state.show_map && side.style.map == style.map &&
-        side.style.background == style.background && side.style.depth == style.depth)
+    const ViewResult& result = *context.result;
+    OverlayStyle style = state.style;
+    style.map = shown_map_style(state, result);
+    const bool difference = shows_difference(context);
+    const std::int64_t serial = result.serial;
+    if (side.serial == serial && side.map == state.show_map && side.difference == difference &&
+        side.style.map == style.map && side.style.background == style.background &&
+        side.style.depth == style.depth)
       return;
     cv::Mat3b picture = background;
     if (state.show_map) {
       picture = background.clone();
-      blend_map(picture, shown_strength(computed.smooth, style.map), style.map);
+      if (difference)
+        blend_difference(picture, map_difference(result.a.smooth, result.b.smooth), style.map.opacity);
+      else
+        blend_map(picture, shown_strength(computed.smooth, style.map), style.map);
     }
     if (!side.texture) side.texture = context.graphics.make_texture();
     side.texture->upload(picture);
     side.serial = serial;
     side.map = state.show_map;
+    side.difference = difference;
     side.style = style;
   }
 };
@@ -78,37 +87,47 @@ void PicturePanel::reset() {
 }
 
 void PicturePanel::draw(ViewContext& view) {
-  const ImVec2 corner = ImGui::GetCursorScreenPos(), size = ImGui::GetContentRegionAvail();
+  const float strip = ImGui::GetFontSize() + view.px(14);
+  ImVec2 corner = ImGui::GetCursorScreenPos(), size = ImGui::GetContentRegionAvail();
+  corner.y += strip;
+  size.y -= 2 * strip;
   view.places["picture"] = {corner.x, corner.y, corner.x + size.x, corner.y + size.y};
   view.pointer.reset();
+  view.hovered_mark = -1;
   if (size.x < 8 || size.y < 8) return;
+  ImGui::SetCursorScreenPos(corner);
   ImGui::InvisibleButton("##picture", size,
                          ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonMiddle);
   const ImVec2 end{corner.x + size.x, corner.y + size.y};
   if (!view.result) return;
   Layers& l = *layers_;
-  l.update_background(*view.result, view.state.style);
+  l.update_background(view, view.state.style);
   l.update(l.a, view.result->a, view);
   const bool two = view.state.comparing() && view.result->compared;
   if (two) l.update(l.b, view.result->b, view);
 
-  if (two && view.state.comparison == Comparison::side_by_side) {
+  if (two && view.state.comparison == Comparison::difference) {
+    const PictureSide a{corner, size, corner, end, strip, false};
+    handle_mouse(view, a);
+    draw_side(view, a);
+  } else if (two && view.state.comparison == Comparison::side_by_side) {
     const float gap = view.px(4), half = (size.x - gap) / 2;
-    const PictureSide a{corner, {half, size.y}, corner, {corner.x + half, end.y}, false};
+    const PictureSide a{corner, {half, size.y}, corner, {corner.x + half, end.y}, strip, false};
     const ImVec2 corner_b{corner.x + half + gap, corner.y};
-    const PictureSide b{corner_b, {half, size.y}, corner_b, end, true};
+    const PictureSide b{corner_b, {half, size.y}, corner_b, end, strip, true};
     handle_mouse(view, ImGui::GetIO().MousePos.x < corner_b.x ? a : b);
     draw_side(view, a);
     draw_side(view, b);
   } else if (two) {
     const float x = corner.x + size.x * static_cast<float>(view.state.divider);
-    const PictureSide a{corner, size, corner, {x, end.y}, false}, b{corner, size, {x, corner.y}, end, true};
+    const PictureSide a{corner, size, corner, {x, end.y}, strip, false};
+    const PictureSide b{corner, size, {x, corner.y}, end, strip, true};
     handle_mouse(view, ImGui::GetIO().MousePos.x < x ? a : b);
     draw_side(view, a);
     draw_side(view, b);
-    draw_divider(view, {corner, size, corner, end});
+    draw_divider(view, {corner, size, corner, end, strip, false});
   } else {
-    const PictureSide a{corner, size, corner, end, false};
+    const PictureSide a{corner, size, corner, end, strip, false};
     handle_mouse(view, a);
     draw_side(view, a);
   }
@@ -119,6 +138,7 @@ void PicturePanel::handle_mouse(ViewContext& view, const PictureSide& side) {
   const ImGuiIO& io = ImGui::GetIO();
   const cv::Size frame = view.result->frame().size();
   l.view.layout({static_cast<double>(side.size.x), static_cast<double>(side.size.y)}, frame);
+  if (view.centre_on) l.view.centre_on({view.centre_on->col + 0.5, view.centre_on->row + 0.5});
   const bool hovered = ImGui::IsItemHovered();
   const cv::Point2d at = as_point({io.MousePos.x - side.corner.x, io.MousePos.y - side.corner.y});
   const bool split = view.state.comparison == Comparison::split && view.result->compared;
@@ -143,6 +163,36 @@ void PicturePanel::handle_mouse(ViewContext& view, const PictureSide& side) {
   if (pixel.x < 0 || pixel.y < 0 || pixel.x >= frame.width || pixel.y >= frame.height) return;
   view.pointer = cv::Point(static_cast<int>(pixel.x), static_cast<int>(pixel.y));
   view.pointer_on_b = side.is_b;
+  const float travelled =
+      std::hypot(io.MouseClickedPos[0].x - io.MousePos.x, io.MouseClickedPos[0].y - io.MousePos.y);
+  if (ImGui::IsMouseReleased(ImGuiMouseButton_Left) && travelled < view.px(4)) click(view, side);
+}
+
+// On a mark: locks its fixation, or frees it. Beside one: pins the probe, or frees it.
+void PicturePanel::click(ViewContext& view, const PictureSide& side) {
+  const Computed& computed = side.is_b ? view.result->b : view.result->a;
+  const OverlayShapes shapes = overlay_shapes(computed, view.state.style, layers_->view, view.unit);
+  const ImVec2 mouse = ImGui::GetIO().MousePos;
+  const int mark = mark_under(shapes, as_point({mouse.x - side.corner.x, mouse.y - side.corner.y}));
+  if (mark >= 0 && !side.is_b) {
+    if (mark == view.locked)
+      view.lock.unlock();
+    else
+      view.lock.lock(computed.result.attention.fixations[static_cast<std::size_t>(mark)]);
+    return;
+  }
+  if (view.pinned && ImGui::GetIO().KeyShift) {
+    view.measured = view.pointer;
+    return;
+  }
+  view.measured.reset();
+  if (view.pinned) {
+    view.pinned.reset();
+    return;
+  }
+  view.pinned = view.pointer;
+  view.pinned_on_b = side.is_b;
+  view.lock.unlock();
 }
 
 void PicturePanel::draw_side(ViewContext& view, const PictureSide& side) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "saliency/params.hpp"
+#include "ui/panels/panel_text.hpp"
 
 namespace saccade {
 namespace {
@@ -55,10 +56,17 @@ void ProbePanel::probe_pixel(const ViewContext& view, const Source& source) {
 }
 
 void ProbePanel::draw(ViewContext& view) {
-  if (view.pointer) {
+  if (view.pinned) {
+    pixel_ = view.pinned;
+    on_b_ = view.pinned_on_b;
+  } else if (view.pointer) {
     pixel_ = view.pointer;
     on_b_ = view.pointer_on_b;
   }
+  wrapped_text(view.pinned ? "Pinned. The arrow keys move it; Shift+click measures a distance from it; a "
+                             "click or Esc frees it."
+                           : "Follows the mouse. A click on the picture pins it.",
+               Tone::quiet);
   const bool inside = view.result && pixel_ && cv::Rect({}, view.result->frame().size()).contains(*pixel_);
   if (!inside) {
     shown_.reset();

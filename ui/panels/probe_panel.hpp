@@ -9,7 +9,7 @@
 namespace saccade {
 
 /// The probe in the side bar. It follows the mouse over the picture and stays at the last pixel when the
-/// mouse leaves, so that the user can read the values and choose a level.
+/// mouse leaves, or at the pixel at which it is pinned.
 class ProbePanel {
  public:
   void draw(ViewContext& view);

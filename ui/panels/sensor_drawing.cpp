@@ -58,8 +58,9 @@ void draw_buttons(const SensorFacts& facts, SensorActions& actions) {
   actions.snapshot = ImGui::Button("Snapshot");
   ImGui::EndDisabled();
   explain(
-      "Writes the frame on screen: overlay (PNG), saliency map (TIFF, PNG), fixations (JSON) and settings "
-      "(TOML).");
+      "Writes the frame on screen: depth and colour (PNG), point cloud (PLY), overlay (PNG), saliency map "
+      "(TIFF, "
+      "PNG), fixations (JSON) and settings (TOML).");
 }
 
 void draw_written(const SensorFacts& facts) {
@@ -158,8 +159,9 @@ void draw_controls(const SensorFacts& facts, SensorActions& actions) {
 
 Headline headline(const SourceFacts& source, std::chrono::steady_clock::time_point now) {
   using Connection = SourceState::Connection;
+  if (source.opening) return {"Opening …", Tone::quiet};
   if (!source.error.empty()) return {"Stopped by an error", Tone::bad};
-  if (!source.open) return {source.uri.empty() ? "No source" : "Opening …", Tone::quiet};
+  if (!source.open) return {source.uri.empty() ? "No source" : "No more frames", Tone::quiet};
   switch (source.connection.connection) {
     case Connection::waiting:
       return {"Waiting for the sensor", Tone::warning};
@@ -185,8 +187,6 @@ Headline recording_line(const RecordingStatus& recording) {
                                                          : "Ended early";
   std::string text = fmt::format("{}: {}, {} frames, {}", what, seconds_text(recording.seconds),
                                  recording.frames, megabytes(static_cast<double>(recording.bytes)));
-  if (recording.free_bytes)
-    text += fmt::format(" ({} free)", megabytes(static_cast<double>(*recording.free_bytes)));
   text += fmt::format(", {} dropped", recording.dropped);
   const bool trouble = recording.dropped > 0 || !recording.error.empty();
   return {text, trouble ? Tone::warning : recording.phase == Phase::recording ? Tone::good : Tone::plain};

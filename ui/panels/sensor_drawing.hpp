@@ -16,7 +16,8 @@ namespace saccade {
 
 /// The open source and its state.
 struct SourceFacts {
-  bool open = false;  ///< false: no source, or it is being opened
+  bool open = false;
+  bool opening = false;  ///< no source is open, and one is being opened
   std::string uri{};
   bool live = false;
   bool paused = false;

@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <utility>
 
@@ -28,15 +29,42 @@ std::optional<std::uint64_t> free_space(const std::filesystem::path& folder) {
 }
 
 std::filesystem::path folder_for_files() {
-  const std::filesystem::path here = std::filesystem::current_path();
+  std::error_code code;  // the folder may have been deleted
+  const std::filesystem::path here = std::filesystem::current_path(code);
   const char* home = std::getenv("HOME");
-  return ::access(here.c_str(), W_OK) != 0 && home != nullptr ? home : here;
+  return (code || ::access(here.c_str(), W_OK) != 0) && home != nullptr ? home : here;
 }
 
 }  // namespace
 
 SensorPanel::SensorPanel(DeviceWatch::List list_sensors, std::function<void()> wake)
-    : folder_(folder_for_files()), wake_(std::move(wake)), devices_(std::move(list_sensors), wake_) {}
+    : usual_folder_(folder_for_files()), wake_(std::move(wake)), devices_(std::move(list_sensors), wake_) {}
+
+std::filesystem::path SensorPanel::folder(const ViewContext& view) const {
+  return view.state.folder.empty() ? usual_folder_ : std::filesystem::path(view.state.folder);
+}
+
+// Sets the folder once the user has typed one that exists.
+void SensorPanel::edit_folder(ViewContext& view) {
+  named_row("Output folder",
+            "For recordings and snapshots; empty = the folder in which the viewer was started");
+  const std::string& chosen = view.state.folder;
+  if (!ImGui::IsAnyItemActive()) {
+    typed_folder_.fill('\0');
+    chosen.copy(typed_folder_.data(), typed_folder_.size() - 1);
+  }
+  ImGui::InputText("##folder", typed_folder_.data(), typed_folder_.size());
+  log_place(view, "output folder");
+  if (!ImGui::IsItemDeactivatedAfterEdit()) return;
+  const std::string typed = typed_folder_.data();
+  std::error_code code;
+  if (!typed.empty() && !std::filesystem::is_directory(typed, code))
+    view.errors.push_back("no such folder: " + typed + (code ? " (" + code.message() + ")" : ""));
+  else if (!typed.empty() && ::access(typed.c_str(), W_OK) != 0)
+    view.errors.push_back("this folder cannot be written: " + typed);
+  else
+    view.state.folder = typed.empty() ? "" : std::filesystem::absolute(typed, code).string();
+}
 
 SensorPanel::~SensorPanel() {
   if (tapped_ != nullptr) tapped_->set_tap({});
@@ -51,7 +79,7 @@ void SensorPanel::toggle_recording(ViewContext& view) {
   OniWriterOptions options;
   options.rate_hz = view.source.source.rate_hz;
   options.expect_colour = view.source.source.live;
-  const auto file = unused_path(folder_, "recording", ".oni", std::chrono::system_clock::now());
+  const auto file = unused_path(folder(view), "recording", ".oni", std::chrono::system_clock::now());
   try {
     recording_->start(file, options);
     tapped_->set_tap([recording = recording_](const Frame& frame) { recording->offer(frame); });
@@ -68,17 +96,32 @@ void SensorPanel::end_recording() {
   recording_->stop();
 }
 
+// Sensors that were connected since the first listing are offered.
+void SensorPanel::poll_devices(ViewContext& view) {
+  DeviceWatch::Seen seen = devices_.seen();
+  if (seen.devices && view.sensors.devices) {
+    const auto holds = [](const std::vector<DeviceChoice>& list, const std::string& source) {
+      return std::ranges::count(list, source, &DeviceChoice::source) > 0;
+    };
+    for (const DeviceChoice& device : *seen.devices)
+      if (!holds(*view.sensors.devices, device.source)) view.connected.push_back(device);
+    std::erase_if(view.connected, [&](const auto& device) { return !holds(*seen.devices, device.source); });
+  }
+  if (view.source.source.live) view.connected.clear();
+  if (seen.devices || seen.error != view.sensors.error) view.sensors = std::move(seen);
+}
+
 void SensorPanel::poll(ViewContext& view) {
+  poll_devices(view);
   poll_snapshot(view);
   if (snapshot_due_) snapshot(view);
+  if (view.source.phase != SessionState::Phase::open) end_recording();
   view.recording = recording_->status();
   if (recording_reported_ || view.recording.phase != RecordingStatus::Phase::idle) return;
   recording_reported_ = true;
   end_recording();  // it may have ended because of an error
-  if (view.recording.error.empty())
-    view.notify(fmt::format("Recorded {} frames: {}", view.recording.frames, view.recording.file.string()));
-  else
-    view.errors.push_back(view.recording.error);
+  if (view.recording.frames > 0) view.recorded = view.recording.file.string();
+  if (!view.recording.error.empty()) view.errors.push_back(view.recording.error);
 }
 
 void SensorPanel::snapshot(ViewContext& view) {
@@ -87,9 +130,8 @@ void SensorPanel::snapshot(ViewContext& view) {
   if (snapshot_due_) return;
   snapshot_ = "Writing the snapshot …";
   snapshot_error_.clear();
-  OverlayStyle style = view.state.style;
-  if (!view.state.show_map) style.map.opacity = 0;
-  writing_ = std::async(std::launch::async, [folder = folder_, result = view.result, style, wake = wake_] {
+  writing_ = std::async(std::launch::async, [folder = folder(view), result = view.result,
+                                             style = shown_style(view.state), wake = wake_] {
     struct Wake {  // also when the disk is full
       const std::function<void()>& call;
       ~Wake() { call(); }
@@ -111,7 +153,7 @@ void SensorPanel::poll_snapshot(ViewContext& view) {
   }
 }
 
-void SensorPanel::poll_disk() {
+void SensorPanel::poll_disk(const ViewContext& view) {
   constexpr std::chrono::seconds kPeriod{2};
   const auto now = std::chrono::steady_clock::now();
   if (measuring_.valid()) {
@@ -119,20 +161,19 @@ void SensorPanel::poll_disk() {
       free_bytes_ = measuring_.get();
   } else if (now - measured_ > kPeriod) {
     measured_ = now;
-    measuring_ = std::async(std::launch::async, [folder = folder_] { return free_space(folder); });
+    measuring_ = std::async(std::launch::async, [folder = folder(view)] { return free_space(folder); });
   }
 }
 
-SensorFacts SensorPanel::facts(const ViewContext& view) {
+SensorFacts SensorPanel::facts(const ViewContext& view) const {
   SensorFacts facts;
   facts.source = source_facts(view);
-  const DeviceWatch::Seen seen = devices_.seen();
-  facts.devices = seen.devices;
-  facts.devices_error = seen.error;
+  facts.devices = view.sensors.devices;
+  facts.devices_error = view.sensors.error;
   facts.modes = view.session.sensor_modes();
   facts.mode = mode_of(view.source.source);
   facts.values = view.session.sensor_values();
-  facts.folder = folder_.string();
+  facts.folder = folder(view).string();
   facts.free_bytes = free_bytes_;
   facts.recording = view.recording;
   facts.snapshot = snapshot_;
@@ -141,10 +182,11 @@ SensorFacts SensorPanel::facts(const ViewContext& view) {
 }
 
 void SensorPanel::draw(ViewContext& view) {
-  poll_disk();
+  poll_disk(view);
   const SensorFacts now = facts(view);
   const SensorActions actions = draw_sensors(now, std::chrono::steady_clock::now(), view.fonts.large);
   for (const ItemPlace& place : actions.places) log_place(view, place);
+  edit_folder(view);
   if (actions.toggle_recording) toggle_recording(view);
   if (actions.snapshot) snapshot(view);
   // The settings hold the wanted values; the viewer requests the changed ones from the sensor.

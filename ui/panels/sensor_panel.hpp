@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <chrono>
 #include <filesystem>
 #include <functional>
@@ -15,8 +16,8 @@
 
 namespace saccade {
 
-/// Sensors, recording and snapshots in the side bar. Files go to the working directory, or to the user's home
-/// where that is not writable.
+/// Sensors, recording and snapshots in the side bar. Files go to ViewState::folder; without one to the
+/// working directory, or to the user's home where that is not writable.
 class SensorPanel {
  public:
   /// `list_sensors` may throw; it is called on a thread of its own. `wake` is called on any thread when there
@@ -26,11 +27,9 @@ class SensorPanel {
   SensorPanel(const SensorPanel&) = delete;
   SensorPanel& operator=(const SensorPanel&) = delete;
 
-  /// Lists the sensors only while the panel is open. Each frame, also when it is closed.
-  void set_open(bool open) { devices_.set_active(open); }
   void draw(ViewContext& view);
 
-  /// Reports finished recordings and snapshots. Each frame, also when the panel is closed.
+  /// Reports connected sensors, finished recordings and snapshots. Each frame, also when the panel is closed.
   void poll(ViewContext& view);
 
   void toggle_recording(ViewContext& view);
@@ -39,11 +38,16 @@ class SensorPanel {
   void snapshot(ViewContext& view);
 
  private:
-  SensorFacts facts(const ViewContext& view);
+  SensorFacts facts(const ViewContext& view) const;
+  void poll_devices(ViewContext& view);
   void poll_snapshot(ViewContext& view);
-  void poll_disk();
+  void poll_disk(const ViewContext& view);
 
-  const std::filesystem::path folder_;
+  std::filesystem::path folder(const ViewContext& view) const;
+  void edit_folder(ViewContext& view);
+
+  const std::filesystem::path usual_folder_;
+  std::array<char, 4096> typed_folder_{};
   const std::function<void()> wake_;
   // Shared with the capture thread, which may still be in it when a recording or the viewer ends.
   const std::shared_ptr<RecordingSession> recording_ = std::make_shared<RecordingSession>();

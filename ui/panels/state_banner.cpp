@@ -5,27 +5,38 @@
 #include <imgui.h>
 
 #include "ui/panels/panels.hpp"
+#include "ui/panels/widgets.hpp"
 
 namespace saccade {
 namespace {
 
 using Phase = SessionState::Phase;
 
+bool waits_for_sensor(const SessionState& s) {
+  return s.phase == Phase::open && s.connection.connection == SourceState::Connection::waiting;
+}
+
 struct Banner {
   Headline headline;
   std::string detail;
 };
+
+std::string waiting_text(const ViewContext& view) {
+  std::string text = "It opens as soon as it is connected.";
+  for (const std::string& line : view.advice) text += "\n" + line;
+  if (view.advice.empty()) text += "\nIf it is connected already, run: saccade doctor";
+  return text;
+}
 
 Banner banner_of(const ViewContext& view) {
   const SessionState& s = view.source;
   const Headline line = headline(source_facts(view), std::chrono::steady_clock::now());
   const bool there = s.phase == Phase::open && s.connection.connection == SourceState::Connection::streaming;
   if (there) return view.result ? Banner{} : Banner{{"Waiting for the first frame …", Tone::quiet}, ""};
-  if (s.phase == Phase::open && s.connection.connection == SourceState::Connection::waiting)
-    return {line, "It opens as soon as it is connected. If it is connected already, run: saccade doctor"};
+  if (waits_for_sensor(s)) return {line, waiting_text(view)};
   if (s.phase == Phase::open) return {line, s.connection.text};
   if (view.result) return {};  // the message bar says it, and the last picture stays
-  if (s.phase == Phase::opening) return {line, s.uri};
+  if (!s.opening.empty()) return {line, s.opening};
   return {{"Nothing to show", Tone::quiet}, "Open a source, or drop a file or folder here."};
 }
 
@@ -35,6 +46,7 @@ SourceFacts source_facts(const ViewContext& view) {
   const SessionState& s = view.source;
   SourceFacts facts;
   facts.open = s.phase == Phase::open;
+  facts.opening = s.phase != Phase::open && !s.opening.empty();
   facts.uri = s.uri;
   facts.live = s.source.live;
   facts.paused = view.playback.paused;
@@ -44,7 +56,22 @@ SourceFacts source_facts(const ViewContext& view) {
   return facts;
 }
 
-void draw_state_banner(const ViewContext& view, ImVec2 low, ImVec2 high) {
+namespace {
+
+// Below the text of the banner, at `top`.
+void draw_retry(ViewContext& view, float middle, float top) {
+  const float width = view.px(110);
+  ImGui::SetCursorScreenPos({middle - width / 2, top});
+  ImGui::BeginChild("retry", {width, ImGui::GetFrameHeight()}, false, ImGuiWindowFlags_NoBackground);
+  if (ImGui::Button("Retry", {width, 0})) view.open(view.source.uri);
+  log_place(view, "retry");
+  explain("Looks for the sensor again, with the drivers as they are now");
+  ImGui::EndChild();
+}
+
+}  // namespace
+
+void draw_state_banner(ViewContext& view, ImVec2 low, ImVec2 high) {
   const Banner banner = banner_of(view);
   const std::string& text = banner.headline.text;
   if (text.empty()) return;
@@ -71,6 +98,9 @@ void draw_state_banner(const ViewContext& view, ImVec2 low, ImVec2 high) {
     draw.AddText(ImGui::GetFont(), ImGui::GetFontSize(), {middle - detail.x / 2, top + size.y + gap},
                  ImGui::GetColorU32(tone_colour(Tone::plain)), banner.detail.c_str(), nullptr, wrap);
   ImGui::EndChild();
+  if (waits_for_sensor(view.source))  // in sight even if the text is long
+    draw_retry(view, middle,
+               std::min(top + height + view.px(14), high.y - ImGui::GetFrameHeight() - view.px(6)));
 }
 
 }  // namespace saccade

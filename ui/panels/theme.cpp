@@ -109,6 +109,9 @@ void apply_theme(Theme theme, double scale) {
   set(ImGuiCol_Header, s.button);
   set(ImGuiCol_HeaderHovered, s.button_hovered);
   set(ImGuiCol_HeaderActive, s.frame_active);
+  set(ImGuiCol_Tab, s.button);
+  set(ImGuiCol_TabHovered, s.button_hovered);
+  set(ImGuiCol_TabActive, s.frame_active);
   set(ImGuiCol_SliderGrab, s.grab);  // the value is printed over it and must be readable
   set(ImGuiCol_SliderGrabActive, s.grab);
   set(ImGuiCol_CheckMark, c.accent);

@@ -1,5 +1,3 @@
-#include <filesystem>
-
 #include <fmt/format.h>
 #include <imgui.h>
 
@@ -11,16 +9,11 @@ namespace {
 
 using Phase = SessionState::Phase;
 
-std::string short_name(const std::string& uri) {
-  if (uri.find(':') != std::string::npos && !std::filesystem::exists(uri)) return uri;
-  const auto path = std::filesystem::path(uri);
-  return path.has_filename() ? path.filename().string() : uri;
-}
-
 // The state of the open source.
 std::string source_line(const ViewContext& view) {
   const SessionState& s = view.source;
   const auto now = StageHistory::Clock::now();
+  if (!s.opening.empty()) return "Opening " + short_name(s.opening) + " …";
   if (s.phase == Phase::ended && s.error.empty()) return "No more frames";
   if (s.phase != Phase::open || s.source.live) {
     std::string line = headline(source_facts(view), now).text;
@@ -50,7 +43,7 @@ float width_of(const std::vector<std::string>& names, const ViewContext& view) {
 
 void draw_top_bar(ViewContext& view) {
   static const std::vector<std::string> centres = {"Picture", "Points", "Both"};
-  static const std::vector<std::string> comparisons = {"A", "A | B", "Split"};
+  static const std::vector<std::string> comparisons = {"A", "A | B", "Split", "A − B"};
   if (ImGui::Button("Open…")) view.act(Action::open_source);
   explain(with_key("Open a recording, a folder or a sensor; or drop a file onto the window",
                    Action::open_source));
@@ -88,11 +81,14 @@ void draw_top_bar(ViewContext& view) {
   ImGui::SameLine(name_right + gap);
   int centre = static_cast<int>(view.state.centre);
   if (segments(view, "centre", centres, centre)) view.state.centre = static_cast<Centre>(centre);
+  explain(with_key("The picture, the point cloud, or both", Action::next_centre));
   ImGui::SameLine(0, gap);
   int comparison = static_cast<int>(view.state.comparison);
   if (segments(view, "comparison", comparisons, comparison))
     view.state.comparison = static_cast<Comparison>(comparison);
-  explain(with_key("Compare two settings on the same frame", Action::next_comparison));
+  explain(
+      with_key("Compare two settings on the same frame: side by side, with a divider, or their difference",
+               Action::next_comparison));
   ImGui::SameLine(0, gap);
   if (ImGui::Button(view.state.theme == Theme::dark ? "Light" : "Dark", {theme_width, 0}))
     view.act(Action::toggle_theme);

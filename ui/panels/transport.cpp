@@ -10,18 +10,20 @@
 namespace saccade {
 namespace {
 
-std::string speed_name(double speed) { return speed > 0 ? fmt::format("{:g}×", speed) : "max"; }
+std::string speed_name(double speed) { return speed > 0 ? fmt::format("{:g}×", speed) : "every frame"; }
 
 void draw_speed(ViewContext& view) {
-  ImGui::SetNextItemWidth(view.px(78));
+  ImGui::SetNextItemWidth(ImGui::CalcTextSize("every frame").x + 1.6F * ImGui::GetFrameHeight());
   if (ImGui::BeginCombo("##speed", speed_name(view.playback.speed).c_str())) {
     for (const double speed : play_speeds())
-      if (ImGui::Selectable(speed > 0 ? speed_name(speed).c_str() : "as fast as possible",
-                            speed == view.playback.speed))
+      if (ImGui::Selectable(speed_name(speed).c_str(), speed == view.playback.speed))
         view.session.playback().set_speed(speed);
     ImGui::EndCombo();
   }
-  explain(fmt::format("Speed ({} slower, {} faster)", key_name(Action::slower), key_name(Action::faster)));
+  explain(fmt::format(
+      "Speed of playing, relative to the recorded times; frames for which there is no time are "
+      "dropped. \"every frame\" computes all of them, as fast as it can. Keys: {} is slower, {} is faster",
+      key_name(Action::slower), key_name(Action::faster)));
 }
 
 // A button for an action, after a space of `gap`.
@@ -61,15 +63,20 @@ void draw_buttons(ViewContext& view) {
   draw_speed(view);
 }
 
-std::string position_text(const ViewContext& view) {
+// With the number of dropped frames, if there is room for it.
+std::string position_text(const ViewContext& view, float room) {
   if (!view.result) return "";
   const Frame& frame = view.result->frame();
-  const std::string of =
-      view.source.source.frame_count ? fmt::format(" of {}", *view.source.source.frame_count) : "";
-  return fmt::format("frame {}{}   {:.2f} s", frame.index, of, static_cast<double>(frame.timestamp_us) / 1e6);
+  const auto count = view.source.source.frame_count;
+  const std::string of = count ? fmt::format(" of 0..{}", *count - 1) : "";
+  const std::string text =
+      fmt::format("frame {}{}   {:.2f} s", frame.index, of, static_cast<double>(frame.timestamp_us) / 1e6);
+  const std::int64_t dropped = view.source.ledger.dropped;
+  const std::string more = dropped > 0 ? fmt::format("{}   {} dropped", text, dropped) : text;
+  return ImGui::CalcTextSize(more.c_str()).x <= room ? more : text;
 }
 
-// A bar for each computed frame: the saliency of its first fixation.
+// A bar for each computed frame: the saliency of its strongest fixation.
 void draw_strengths(const ViewContext& view, ImVec2 corner, ImVec2 size, std::int64_t frames) {
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const float largest = view.timeline.largest();
@@ -118,7 +125,7 @@ void draw_line(ViewContext& view, std::int64_t frames) {
     const auto& entries = view.timeline.entries();
     const auto place = static_cast<std::size_t>(under);
     const bool seen = place < entries.size() && entries[place].seen;
-    ImGui::SetTooltip("%s", (seen ? fmt::format("frame {}, saliency of the first fixation {:.2f}", under,
+    ImGui::SetTooltip("%s", (seen ? fmt::format("frame {}, saliency of its strongest fixation {:.2f}", under,
                                                 entries[place].strength)
                                   : fmt::format("frame {}, not computed yet", under))
                                 .c_str());
@@ -130,18 +137,19 @@ void draw_line(ViewContext& view, std::int64_t frames) {
                view.px(2));
 }
 
-}  // namespace
-
-void draw_transport(ViewContext& view) {
+void draw_contents(ViewContext& view) {
   draw_buttons(view);
-  const std::string text = position_text(view);
   ImGui::SameLine(0, view.px(16));
+  const std::string text = position_text(view, ImGui::GetContentRegionAvail().x);
   ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted(text.c_str());
+  explain(
+      "The frame on screen, its time, and how many frames were dropped since there was no time to compute "
+      "them");
   if (view.source.source.live) return;
   const auto seen = static_cast<std::int64_t>(view.timeline.entries().size());
   const std::int64_t frames = view.source.source.frame_count.value_or(seen);
-  const char* caption = "saliency of the first fixation";
+  const char* caption = "saliency of the strongest fixation";
   const float width = ImGui::CalcTextSize(caption).x;
   ImGui::SameLine();
   if (ImGui::GetContentRegionAvail().x > width + view.px(10)) {
@@ -151,6 +159,15 @@ void draw_transport(ViewContext& view) {
     ImGui::NewLine();
   }
   if (frames > 0) draw_line(view, frames);
+}
+
+}  // namespace
+
+// Nothing can be pressed while nothing is open.
+void draw_transport(ViewContext& view) {
+  ImGui::BeginDisabled(view.source.phase != SessionState::Phase::open);
+  draw_contents(view);
+  ImGui::EndDisabled();
 }
 
 }  // namespace saccade

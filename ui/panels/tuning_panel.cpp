@@ -12,12 +12,19 @@
 namespace saccade {
 namespace {
 
+std::string help_of_model(const std::string& name) {
+  for (const ModelInfo& model : models())
+    if (model.name == name)
+      return std::string(model.help) + (model.needs_depth ? ". Needs depth" : ". Works on the colour image");
+  return "";
+}
+
 void draw_kernel(ViewContext& view, Settings& s) {
   named_row("Kernel", "Side of the operator's window around each pixel, at every pyramid level");
   if (ImGui::SliderInt("##kernel", &s.kernel, 3, 127, "%d px", ImGuiSliderFlags_AlwaysClamp))
     s.kernel = std::clamp(s.kernel | 1, 3, 127);  // the window is odd
-  explain(with_key("Drag, or Ctrl+click to type a size", Action::kernel_down) + ", " +
-          key_name(Action::kernel_up));
+  explain(fmt::format("Drag, or Ctrl+click to type a size. Keys: {} is smaller, {} is larger",
+                      key_name(Action::kernel_down), key_name(Action::kernel_up)));
   log_place(view, "kernel");
 }
 
@@ -41,13 +48,17 @@ void draw_operator(ViewContext& view, Settings& s) {
   ImGui::BeginDisabled(!needs_depth(s.model));
   draw_kernel(view, s);
   draw_levels(view, s);
-  named_row("Length scale",
-            "Unit of distances: relative to the size of the window on the surface, or millimetres as in the "
-            "paper.");
+  named_row(
+      "Length scale",
+      "Unit in which the distances of point pairs are weighed. relative: 5 % of the window's width on the "
+      "surface, so that an object gives the same value near and far; millimetre: as in the paper");
   int scale = static_cast<int>(s.length_scale);
   if (segments(view, "scale", choices_of("length-scale"), scale))
     s.length_scale = static_cast<LengthScale>(scale);
-  named_row("Normalise", "Normalisation of each level's map");
+  named_row(
+      "Normalise",
+      "Weighs the map of each level before they are added. none: as they are; max: by the largest value; "
+      "itti: maps with few strong peaks count more than maps with many equal ones");
   int normalisation = static_cast<int>(s.normalisation);
   if (segments(view, "normalise", choices_of("normalisation"), normalisation))
     s.normalisation = static_cast<LevelNormalisation>(normalisation);
@@ -55,7 +66,10 @@ void draw_operator(ViewContext& view, Settings& s) {
 }
 
 void draw_attention(ViewContext& view, Settings& s) {
-  named_row("Selector", "proto: one fixation per object; wta: the paper's winner-take-all network");
+  named_row(
+      "Selector",
+      "How fixations are chosen in the map. proto: one for each proto-object, a surface that stands out as "
+      "one thing; wta: the paper's winner-take-all network, with inhibition of return");
   int selector = static_cast<int>(s.selector);
   if (segments(view, "selector", choices_of("selector"), selector))
     s.selector = static_cast<Selector>(selector);
@@ -71,7 +85,7 @@ void draw_attention(ViewContext& view, Settings& s) {
     log_place(view, "confidence");
     return;
   }
-  named_row("Focus", "Size of the focus of attention");
+  named_row("Focus", "Diameter of the focus of attention: what is inhibited around a fixation, in pixels");
   auto foa = static_cast<float>(s.foa);
   if (ImGui::SliderFloat("##foa", &foa, 8, 256, "%.0f px"))
     s.foa = std::clamp(static_cast<double>(foa), 1.0, 1000.0);
@@ -106,15 +120,16 @@ void draw_buttons(ViewContext& view) {
 void draw_tuning_panel(ViewContext& view) {
   if (view.state.comparing()) {
     int side = view.state.edit_b ? 1 : 0;
-    named_row("Settings of");
+    named_row("Settings of", "The side of the comparison that this panel edits");
     if (segments(view, "side", {"  A  ", "  B  "}, side)) view.state.edit_b = side == 1;
     ImGui::SameLine(0, view.px(10));
     if (ImGui::Button("Swap")) view.act(Action::swap_sides);
     explain(with_key("Swap A and B", Action::swap_sides));
   }
   Settings& s = view.state.edited();
-  named_row("Model", "The saliency model");
-  word_combo("##model", choices_of("model"), s.model);
+  named_row("Model", "How the saliency of each pixel is computed");
+  word_combo("##model", choices_of("model"), s.model, help_of_model);
+  explain(with_key(help_of_model(s.model), Action::next_model));
   log_place(view, "model");
   draw_operator(view, s);
   draw_attention(view, s);

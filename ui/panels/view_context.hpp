@@ -12,6 +12,8 @@
 
 #include "ui/panels/probe_drawing.hpp"
 #include "ui/panels/theme.hpp"
+#include "ui/session/device_watch.hpp"
+#include "ui/session/fixation_lock.hpp"
 #include "ui/session/graphics.hpp"
 #include "ui/session/overlay_shapes.hpp"
 #include "ui/session/recording_session.hpp"
@@ -41,8 +43,13 @@ struct ViewContext {
   StageHistory history;
   RequestedOutputs outputs;  ///< by-products that a panel requests; cleared before each frame
 
+  DeviceWatch::Seen sensors;            ///< the connected sensors
+  std::vector<DeviceChoice> connected;  ///< sensors connected just now, which are offered to the user
+  std::string example;                  ///< path of the bundled recording; empty = it is not there
+
   RecordingStatus recording;  ///< the running recording, or the last one
-  std::string snapshot;       ///< folder of the last snapshot; empty = none yet
+  std::string recorded;  ///< a recording that has ended just now and is offered to be played; empty = none
+  std::string snapshot;  ///< folder of the last snapshot; empty = none yet
 
   double captured_hz = 0;  ///< present rate of the source, with frames that are not computed
   bool can_undo = false, can_redo = false;
@@ -55,11 +62,25 @@ struct ViewContext {
 
   std::optional<cv::Point> pointer;  ///< pixel of the frame under the mouse
   bool pointer_on_b = false;         ///< over B's picture
+  std::optional<cv::Point> pinned;   ///< pixel at which the user has pinned the probe
+  bool pinned_on_b = false;
+  std::optional<cv::Point> measured;  ///< other end of a distance that is measured from the pinned pixel
+
+  FixationLock lock;
+  int locked = -1;                    ///< index of the locked fixation of A in this frame; -1 = none
+  int hovered_mark = -1;              ///< index of the fixation whose mark is under the mouse; -1 = none
+  int hovered_row = -1;               ///< the same for the rows of the table, as of the last frame
+  std::optional<Fixation> centre_on;  ///< to be shown in the middle of picture and cloud
+
+  bool welcome = false;   ///< the welcome card is shown
+  cv::Mat3b last_colour;  ///< the last colour image of the source; empty = none yet
+  std::int64_t last_colour_index = 0;
   /// Draws over the picture in the next frame of the window; may be empty.
   std::function<void(ImDrawList&, const PicturePlace&)> over_picture;
 
   std::vector<std::string> errors;  ///< shown until the user dismisses them; one line each
   std::vector<std::string> notes;   ///< about the source; shown until the user dismisses them
+  std::vector<std::string> advice;  ///< why there may be no sensor, one line each; while one is waited for
   std::string notice;               ///< a short message that disappears by itself
   double notice_until = 0;          ///< ImGui's time
 
@@ -70,6 +91,14 @@ struct ViewContext {
       places;  ///< of the controls in the window, for its log: [left, top, right, bottom]
 
   float px(double pixels) const { return static_cast<float>(pixels * unit); }
+  /// The frame on screen; one without colour gets the last colour image, so that the picture does not flash.
+  Frame shown_frame() const {
+    Frame frame = result->frame();
+    if (frame.colour.empty() && last_colour.size() == frame.size()) frame.colour = last_colour;
+    return frame;
+  }
+  /// The point of a pixel in the camera frame, mm; none where there is no reading, or no such pixel.
+  std::optional<cv::Point3d> point_at(std::optional<cv::Point> pixel) const;
   void notify(std::string line);  ///< sets the notice, which stays for some seconds
   /// The computation under the pointer, or A's.
   const Computed* pointed() const {

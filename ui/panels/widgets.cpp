@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <imgui_internal.h>
+
 namespace saccade {
 namespace {
 
@@ -50,7 +52,33 @@ void draw_icon(ImDrawList& draw, Icon icon, ImVec2 c, float r, unsigned colour) 
   }
 }
 
+// "openni2:1d27/0601@1/4"; a path may hold a colon too, but hardly before its first slash.
+bool is_not_a_path(const std::string& uri) { return uri.find(':') < uri.find('/'); }
+
 }  // namespace
+
+std::string short_name(const std::string& uri) {
+  if (uri.find('/') == std::string::npos || is_not_a_path(uri)) return uri;
+  const auto end = uri.find_last_not_of('/');
+  const std::string path = uri.substr(0, end == std::string::npos ? 0 : end + 1);
+  const std::string name = path.substr(path.rfind('/') + 1);
+  return name.empty() ? uri : name;
+}
+
+bool begin_dialog(ViewContext& view, const char* title, bool& opening, double width) {
+  if (opening) ImGui::OpenPopup(title);
+  opening = false;
+  const ImVec2 size = ImGui::GetIO().DisplaySize;
+  ImGui::SetNextWindowPos({size.x / 2, size.y / 2}, ImGuiCond_Always, {0.5F, 0.5F});
+  ImGui::SetNextWindowSize({std::min(view.px(width), size.x * 0.96F), 0});
+  bool stays = true;
+  return ImGui::BeginPopupModal(title, &stays, ImGuiWindowFlags_NoMove | ImGuiWindowFlags_AlwaysAutoResize);
+}
+
+void close_top_popup() {
+  const int popups = ImGui::GetCurrentContext()->OpenPopupStack.Size;
+  if (popups > 0) ImGui::ClosePopupToLevel(popups - 1, true);
+}
 
 bool icon_button(ViewContext& view, const char* id, Icon icon, bool lit, const std::string& text) {
   const float side = ImGui::GetFrameHeight();
@@ -88,14 +116,17 @@ bool segments(ViewContext& view, const char* id, const std::vector<std::string>&
   return changed;
 }
 
-bool word_combo(const char* id, const std::vector<std::string>& words, std::string& word) {
+bool word_combo(const char* id, const std::vector<std::string>& words, std::string& word,
+                std::string (*help)(const std::string& word)) {
   bool changed = false;
   if (!ImGui::BeginCombo(id, word.c_str(), ImGuiComboFlags_HeightLargest)) return false;
-  for (const std::string& choice : words)
+  for (const std::string& choice : words) {
     if (ImGui::Selectable(choice.c_str(), choice == word) && choice != word) {
       word = choice;
       changed = true;
     }
+    if (help != nullptr) explain(help(choice));
+  }
   ImGui::EndCombo();
   return changed;
 }

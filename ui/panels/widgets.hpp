@@ -19,11 +19,22 @@ enum class Icon { play, pause, step_back, step_forward, loop, first, last, recor
 /// A square button; `lit` marks one that is switched on.
 bool icon_button(ViewContext& view, const char* id, Icon icon, bool lit, const std::string& tip);
 
+/// Begins a modal window in the middle, after `opening` was set, which this clears; at most `width` pixels of
+/// a screen of usual density wide. If true, ImGui::EndPopup() must follow.
+[[nodiscard]] bool begin_dialog(ViewContext& view, const char* title, bool& opening, double width);
+
+/// Closes the topmost drop-down list or dialog, if one is open. Between windows, before they are drawn.
+void close_top_popup();
+
+/// The last part of a path; other sources stay as they are.
+[[nodiscard]] std::string short_name(const std::string& uri);
+
 /// A row of exclusive choices; true if `chosen` changed.
 bool segments(ViewContext& view, const char* id, const std::vector<std::string>& names, int& chosen);
 
-/// A combo box over words; true if `word` changed.
-bool word_combo(const char* id, const std::vector<std::string>& words, std::string& word);
+/// A combo box over words; true if `word` changed. `help` gives the tool tip of a word; may be null.
+bool word_combo(const char* id, const std::vector<std::string>& words, std::string& word,
+                std::string (*help)(const std::string& word) = nullptr);
 
 /// A text for explain() with the keys of an action: "Play (Space)".
 [[nodiscard]] std::string with_key(const std::string& text, Action action);

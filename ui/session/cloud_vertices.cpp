@@ -35,18 +35,12 @@ std::int8_t to_byte(float part) { return static_cast<std::int8_t>(std::lround(12
 cv::Mat3b cloud_colours(CloudColour by, const Frame& frame, const cv::Mat1f& smooth,
                         const OverlayStyle& style) {
   if (by == CloudColour::depth) return depth_picture(frame.depth_mm, style.depth);
-  if (by == CloudColour::image) {
-    OverlayStyle image = style;
-    image.background = Background::colour;
-    return draw_background(frame, image);
-  }
-  const PaletteColours& colours = colours_of(style.map.palette);
-  cv::Mat3b picture(frame.size(), colours[0]);
-  if (smooth.empty()) return picture;
+  OverlayStyle image = style;
+  image.background = Background::colour;
+  cv::Mat3b picture = draw_background(frame, image);
+  if (by == CloudColour::image || smooth.empty()) return picture;
   check_size(frame, smooth.size(), "cloud_colours");
-  const cv::Mat1b strength = shown_strength(smooth, style.map);
-  for (int r = 0; r < picture.rows; ++r)
-    for (int c = 0; c < picture.cols; ++c) picture(r, c) = colours[strength(r, c)];
+  blend_map(picture, shown_strength(smooth, style.map), style.map);
   return picture;
 }
 

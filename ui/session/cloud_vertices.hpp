@@ -23,7 +23,7 @@ enum class CloudColour { image, depth, saliency };
 
 /// The user's choices for the cloud.
 struct CloudStyle {
-  CloudColour colour = CloudColour::image;
+  CloudColour colour = CloudColour::saliency;
   bool lit = true;          ///< shaded, which needs normals
   bool needles = false;     ///< short lines along the normals
   bool fixations = true;    ///< numbered markers with their positions
@@ -33,7 +33,7 @@ struct CloudStyle {
 constexpr float kSmallestPoint = 0.5F, kLargestPoint = 4;
 
 /// The colour of each pixel's point, BGR: the frame's image (its depth where it has none), its depth, or the
-/// strength of the map (smooth_for_looking(); an empty one counts as 0), all as in the overlay.
+/// map (smooth_for_looking(); an empty one counts as 0) over the image, all as in the overlay.
 [[nodiscard]] cv::Mat3b cloud_colours(CloudColour by, const Frame& frame, const cv::Mat1f& smooth,
                                       const OverlayStyle& style);
 

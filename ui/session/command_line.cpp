@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cstdlib>
+#include <filesystem>
+#include <sstream>
 #include <string_view>
 
 namespace saccade {
@@ -18,7 +21,22 @@ std::string shell_word(const std::string& word) {
   return quoted + "'";
 }
 
-std::string run_command_line(const std::string& source, const Settings& settings, std::int64_t index) {
+std::string program_word() {
+  namespace fs = std::filesystem;
+  std::error_code code;
+  const fs::path self = fs::read_symlink("/proc/self/exe", code);
+  const char* path = std::getenv("PATH");
+  std::istringstream folders(path != nullptr ? path : "");
+  for (std::string folder; std::getline(folders, folder, ':');) {
+    const fs::path found = fs::path(folder) / "saccade";
+    if (!fs::exists(found, code)) continue;
+    return fs::equivalent(found, self, code) ? "saccade" : self.string();
+  }
+  return self.string();
+}
+
+std::string run_command_line(const std::string& program, const std::string& source, const Settings& settings,
+                             std::int64_t index) {
   Settings shown = settings;
   if (index >= 0) {
     shown.start = index;
@@ -28,11 +46,14 @@ std::string run_command_line(const std::string& source, const Settings& settings
   // Settings of the window's own run do not belong into the command.
   shown.json = shown.quiet = false;
   shown.log_level = Settings{}.log_level;
-  std::string line = "saccade run " + shell_word(source) + " --out out/view";
+  std::string line = shell_word(program) + " run " + shell_word(source) + " --out out/view";
   for (const SettingSpec& spec : setting_specs()) {
     if (is_default(spec, shown)) continue;
-    const std::string value = spec.print(shown);
-    line += " --" + std::string(spec.key) + (spec.is_switch() ? "" : " " + shell_word(value));
+    const std::string key(spec.key), value = spec.print(shown);
+    if (spec.is_switch())
+      line += value == "true" ? " --" + key : " --no-" + key;
+    else
+      line += " --" + key + " " + shell_word(value);
   }
   return line;
 }

@@ -13,15 +13,6 @@ DeviceWatch::DeviceWatch(List list, std::function<void()> changed, std::chrono::
 
 DeviceWatch::~DeviceWatch() = default;  // stops and joins the thread
 
-void DeviceWatch::set_active(bool active) {
-  {
-    const std::lock_guard lock(mutex_);
-    if (active_ == active) return;
-    active_ = active;
-  }
-  wake_.notify_all();
-}
-
 DeviceWatch::Seen DeviceWatch::seen() const {
   const std::lock_guard lock(mutex_);
   return seen_;
@@ -39,7 +30,7 @@ DeviceWatch::Seen DeviceWatch::look() const {
 
 void DeviceWatch::work(const std::stop_token& token) {
   std::unique_lock lock(mutex_);
-  while (wake_.wait(lock, token, [this] { return active_; }) && !token.stop_requested()) {
+  while (!token.stop_requested()) {
     lock.unlock();
     Seen seen = look();
     lock.lock();
@@ -49,7 +40,7 @@ void DeviceWatch::work(const std::stop_token& token) {
       changed_();
       lock.lock();
     }
-    wake_.wait_for(lock, token, period_, [this] { return !active_; });
+    wake_.wait_for(lock, token, period_, [] { return false; });
   }
 }
 

@@ -19,7 +19,7 @@ struct DeviceChoice {
   bool operator==(const DeviceChoice&) const = default;
 };
 
-/// Lists the connected sensors periodically on a thread of its own, while it is active. Any thread.
+/// Lists the connected sensors periodically on a thread of its own. Any thread.
 class DeviceWatch {
  public:
   using List = std::function<std::vector<DeviceChoice>()>;
@@ -27,13 +27,10 @@ class DeviceWatch {
   /// Calls `list`, which may throw, on the watch's thread only, and `changed` there after each listing that
   /// differs from the one before.
   DeviceWatch(List list, std::function<void()> changed,
-              std::chrono::milliseconds period = std::chrono::seconds(1));
+              std::chrono::milliseconds period = std::chrono::seconds(2));
   ~DeviceWatch();
   DeviceWatch(const DeviceWatch&) = delete;
   DeviceWatch& operator=(const DeviceWatch&) = delete;
-
-  /// Starts or suspends the listing; suspended at first.
-  void set_active(bool active);
 
   struct Seen {
     std::optional<std::vector<DeviceChoice>> devices;  ///< none = not listed yet
@@ -51,8 +48,7 @@ class DeviceWatch {
   const std::chrono::milliseconds period_;
   mutable std::mutex mutex_;
   std::condition_variable_any wake_;
-  bool active_ = false;  // guarded by mutex_
-  Seen seen_;            // guarded by mutex_
+  Seen seen_;  // guarded by mutex_
   std::jthread thread_;
 };
 

@@ -30,6 +30,9 @@ class OrbitCamera {
   /// of the target stays under the pointer.
   void zoom(double steps, cv::Point2d pointer_px, cv::Size viewport);
 
+  /// Moves eye and target so that the target is at this point.
+  void look_at(const cv::Vec3d& point_mm) { target_ = point_mm; }
+
   cv::Vec3d eye_mm() const { return target_ - distance_ * forward(); }
   cv::Vec3d target_mm() const { return target_; }
   double distance_mm() const { return distance_; }

@@ -29,6 +29,13 @@ void PictureView::pan(cv::Point2d drag) {
   keep_in_sight();
 }
 
+void PictureView::centre_on(cv::Point2d picture) {
+  if (fitted_) scale_ = std::min(2 * fitting_scale(), kLargestZoom);
+  fitted_ = false;
+  centre_ = picture;
+  keep_in_sight();
+}
+
 double PictureView::fitting_scale() const {
   return std::min({panel_.width / picture_.width, panel_.height / picture_.height, kLargestZoom});
 }

@@ -20,6 +20,8 @@ class PictureView {
   /// Zooms by `factor`; the point under `about` stays there.
   void zoom(double factor, cv::Point2d about);
   void pan(cv::Point2d drag);
+  /// Shows this point of the picture in the middle, enlarged if the whole picture was shown.
+  void centre_on(cv::Point2d picture);
 
   double scale() const { return scale_; }  ///< panel pixels per pixel of the picture
   cv::Point2d to_panel(cv::Point2d picture) const { return panel_centre() + (picture - centre_) * scale_; }

@@ -89,9 +89,6 @@ RecordingStatus RecordingSession::status() const {
   const std::lock_guard lock(mutex_);
   RecordingStatus status = status_;
   if (recording_) note(*recording_, status);
-  std::error_code code;
-  const fs::space_info space = fs::space(status.file.parent_path() / ".", code);
-  if (!code && !status.file.empty()) status.free_bytes = space.available;
   return status;
 }
 

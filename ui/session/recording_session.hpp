@@ -24,8 +24,7 @@ struct RecordingStatus {
   std::uint64_t frames = 0;      ///< written
   std::uint64_t dropped = 0;     ///< the disk was too slow for them
   std::uint64_t bytes = 0;
-  std::optional<std::uint64_t> free_bytes{};  ///< of the disk; none = not known
-  std::string error{};                        ///< why the last one ended early; empty = it did not
+  std::string error{};  ///< why the last one ended early; empty = it did not
 };
 
 /// Records the frames of the capture thread to .oni files. The thread that draws calls start(), stop() and

@@ -1,8 +1,10 @@
 #include "ui/session/session.hpp"
 
+#include <algorithm>
 #include <exception>
 #include <utility>
 
+#include "core/error.hpp"
 #include "pipeline/paced_source.hpp"
 
 namespace saccade {
@@ -16,7 +18,7 @@ constexpr int kSlots = 4;  // one each: captured, waiting, computed, shown
 
 Session::Session(Open open, std::function<void()> wake, ComputeRequest request)
     : open_(std::move(open)), wake_(std::move(wake)), compute_request_(std::move(request)) {
-  thread_ = std::jthread([this](const std::stop_token& token) { work(token); });
+  opener_ = std::jthread([this](const std::stop_token& token) { work(token); });
 }
 
 Session::~Session() {
@@ -25,26 +27,22 @@ Session::~Session() {
     stopping_ = true;
     stop_pipeline();
   }
-  thread_.request_stop();
+  opener_.request_stop();
+  opener_.join();
 }
 
 void Session::open(OpenRequest request) {
   {
     const std::lock_guard lock(mutex_);
-    state_ = {};
-    state_.phase = SessionState::Phase::opening;
-    state_.uri = request.uri;
+    state_.opening = request.uri;
     to_open_ = std::move(request);
-    latest_.reset();
-    records_.clear();
-    stop_pipeline();
   }
   asked_.notify_all();
 }
 
 // With mutex_ held.
 void Session::stop_pipeline() {
-  if (pipeline_ == nullptr) return;
+  if (!pipeline_) return;
   pipeline_->stop();
   processor_->stop();
 }
@@ -63,12 +61,22 @@ std::int64_t Session::set_compute_request(const ComputeRequest& request) {
 
 SessionState Session::state() const {
   const std::lock_guard lock(mutex_);
+  return state_now();
+}
+
+// With mutex_ held.
+SessionState Session::state_now() const {
   SessionState state = state_;
-  if (pipeline_ != nullptr && !to_open_) {
+  if (pipeline_) {
     state.ledger = pipeline_->ledger();
     state.connection = pipeline_->source_state();
   }
   return state;
+}
+
+SessionUpdate Session::poll() {
+  const std::lock_guard lock(mutex_);
+  return {state_now(), latest_, std::exchange(records_, {})};
 }
 
 SensorValues Session::sensor_values() const {
@@ -91,39 +99,73 @@ ViewResultPtr Session::latest() const {
   return latest_;
 }
 
-std::vector<FrameRecord> Session::take_records() {
-  const std::lock_guard lock(mutex_);
-  return std::exchange(records_, {});
-}
-
-// The session's thread: one source after the other.
+// The opening thread: one source after the other.
 void Session::work(const std::stop_token& token) {
   for (;;) {
     OpenRequest request;
     {
       std::unique_lock lock(mutex_);
-      if (!asked_.wait(lock, token, [this] { return to_open_.has_value(); })) return;
-      if (stopping_) return;
+      if (!asked_.wait(lock, token, [this] { return to_open_.has_value(); }) || stopping_) break;
       request = *std::exchange(to_open_, std::nullopt);
     }
-    std::string error;
+    std::string failure;
     try {
-      run(request);
-    } catch (const std::exception& failure) {
-      error = failure.what();
+      replace_source(request);
+    } catch (const std::exception& error) {
+      failure = error.what();
     }
     change([&](SessionState& state) {
-      state.phase = SessionState::Phase::ended;
-      state.error = error;
+      if (!to_open_) state.opening.clear();
+      if (failure.empty()) return;
+      ++state.failed;
+      state.failure = failure;
     });
   }
+  stop_running();
 }
 
-void Session::run(const OpenRequest& request) {
-  std::unique_ptr<FrameSource> source = open_(request.uri, request.sensor);
+// Throws if the source cannot be opened.
+void Session::replace_source(const OpenRequest& request) {
+  const std::optional<OpenRequest> closed = close_if_same_device(request);
+  std::unique_ptr<FrameSource> source;
+  try {
+    source = open_(request.uri, request.sensor);
+    check_start(source->info(), request.range.start);
+    if (closed && request.uri != closed->uri &&
+        source->state().connection == SourceState::Connection::waiting)
+      throw unreadable("this sensor is not connected", request.uri, "saccade devices lists the sensors");
+  } catch (const std::exception&) {
+    source.reset();
+    if (closed) start(open_(closed->uri, closed->sensor), *closed);
+    throw;
+  }
+  {
+    const std::lock_guard lock(mutex_);
+    if (stopping_ || (to_open_ && !closed)) return;  // another source is wanted, or none
+  }
+  start(std::move(source), request);
+}
+
+// Two programs, or two parts of one, cannot use a sensor at the same time. Returns the request of the sensor
+// that this closed.
+std::optional<OpenRequest> Session::close_if_same_device(const OpenRequest& request) {
+  {
+    const std::lock_guard lock(mutex_);
+    const std::string& kind = state_.source.kind;
+    const bool same_kind = request.uri == kind || request.uri.starts_with(kind + ":");
+    const bool any = request.uri == kind || present_.uri == kind;  // "openni2": whichever is connected
+    const bool same = request.uri == present_.uri || (same_kind && any);
+    if (!pipeline_ || !state_.source.live || !same) return std::nullopt;
+  }
+  stop_running();
+  return present_;
+}
+
+// Ends the present source, if there is one, and starts this one.
+void Session::start(std::unique_ptr<FrameSource> source, const OpenRequest& request) {
+  stop_running();
+  playback_->set_tap({});  // a recording holds one source
   const SourceInfo info = source->info();
-  check_start(info, request.range.start);
-  SensorControls* const controls = source->controls();
   PipelineOptions options;
   options.policy = FramePolicy::newest;
   options.slots = kSlots;
@@ -134,45 +176,76 @@ void Session::run(const OpenRequest& request) {
       state.rejected_reason = reason;
     });
   };
-
-  std::unique_lock lock(mutex_);
-  if (to_open_ || stopping_) return;  // another source is wanted, or none
-  auto processor = std::make_unique<InteractiveProcessor>(
-      compute_request_, generation_,
-      InteractiveProcessor::Hooks{
-          [this] { playback_->taken(); },
-          [this](std::shared_ptr<ViewResult> result) { publish(std::move(result)); }});
-  InteractiveProcessor* const processing = processor.get();
-  state_.source = info;
-  state_.phase = SessionState::Phase::open;
-  Pipeline pipeline(std::make_unique<PacedSource>(std::move(source), playback_, request.range),
-                    std::move(processor), std::move(options));
-  pipeline_ = &pipeline;
-  processor_ = processing;
-  controls_ = controls;
-  lock.unlock();
+  present_ = request;
+  {
+    const std::lock_guard lock(mutex_);
+    SessionState state;
+    state.phase = SessionState::Phase::open;
+    state.opening = state_.opening;
+    state.opened = state_.opened + 1;
+    state.failed = state_.failed;
+    state.failure = state_.failure;
+    state.uri = request.uri;
+    state.source = info;
+    state_ = std::move(state);
+    latest_.reset();
+    records_.clear();
+    replacing_ = false;
+    controls_ = source->controls();
+    auto processor = std::make_unique<InteractiveProcessor>(
+        compute_request_, generation_,
+        InteractiveProcessor::Hooks{
+            [this] { playback_->taken(); },
+            [this](std::shared_ptr<ViewResult> result) { publish(std::move(result)); }});
+    processor_ = processor.get();
+    pipeline_ =
+        std::make_unique<Pipeline>(std::make_unique<PacedSource>(std::move(source), playback_, request.range),
+                                   std::move(processor), std::move(options));
+    if (stopping_) stop_pipeline();
+    runner_ = std::jthread([this, &pipeline = *pipeline_] { run(pipeline); });
+  }
   wake_();
+}
 
-  std::exception_ptr error;
+// Ends the pipeline and waits until its source is closed.
+void Session::stop_running() {
+  {
+    const std::lock_guard lock(mutex_);
+    replacing_ = true;
+    stop_pipeline();
+  }
+  if (runner_.joinable()) runner_.join();
+}
+
+// The thread of one source, from its start to its end.
+void Session::run(Pipeline& pipeline) {
+  std::string error;
   try {
     consume(pipeline);
-  } catch (...) {
-    error = std::current_exception();
+  } catch (const std::exception& failure) {
+    error = failure.what();
   }
-  lock.lock();
-  if (!to_open_) state_.ledger = pipeline.ledger();
-  pipeline_ = nullptr;
-  processor_ = nullptr;
-  controls_ = nullptr;
-  lock.unlock();
-  if (error) std::rethrow_exception(error);
+  std::unique_ptr<Pipeline> ended;  // destroyed without the lock: it waits for its threads
+  {
+    const std::lock_guard lock(mutex_);
+    state_.ledger = pipeline.ledger();
+    processor_ = nullptr;
+    controls_ = nullptr;
+    ended = std::move(pipeline_);
+    if (!replacing_) {
+      state_.phase = SessionState::Phase::ended;
+      state_.error = error;
+    }
+  }
+  ended.reset();
+  wake_();
 }
 
 // The processor publishes results; this loop returns their slots and rethrows the pipeline's errors.
 void Session::consume(Pipeline& pipeline) {
   while (const ResultHandle result = pipeline.next()) {
     const std::lock_guard lock(mutex_);
-    if (!to_open_) state_.latency = pipeline.latency();
+    state_.latency = pipeline.latency();
   }
 }
 
@@ -180,15 +253,15 @@ void Session::publish(std::shared_ptr<ViewResult> result) {
   FrameRecord record;
   record.index = result->frame().index;
   record.generation = result->generation;
-  if (const auto& fixations = result->a.result.attention.fixations; !fixations.empty())
-    record.strength = fixations.front().saliency;
+  for (const Fixation& fixation : result->a.result.attention.fixations)
+    record.strength = std::max(record.strength, fixation.saliency);
   record.times = result->a.result.times;
   record.at = Clock::now();
   record.latency_ms =
       std::chrono::duration<double, std::milli>(record.at - result->a.result.captured_at).count();
   {
     const std::lock_guard lock(mutex_);
-    if (to_open_ || stopping_) return;
+    if (replacing_ || stopping_) return;
     result->serial = ++serial_;
     result->computed = result->draft ? computed_ : ++computed_;
     if (!result->draft) {
@@ -204,7 +277,6 @@ void Session::publish(std::shared_ptr<ViewResult> result) {
 void Session::change(const std::function<void(SessionState&)>& how) {
   {
     const std::lock_guard lock(mutex_);
-    if (to_open_) return;  // about a source that is being replaced
     how(state_);
   }
   wake_();

@@ -27,15 +27,20 @@ struct OpenRequest {
 /// The state of a session.
 struct SessionState {
   enum class Phase {
-    idle,     ///< nothing was requested
-    opening,  ///< the source is being opened
-    open,     ///< frames come, or may come
-    ended,    ///< no more frames, or an error
+    idle,   ///< no source has been opened yet
+    open,   ///< frames come, or may come
+    ended,  ///< no more frames, or an error
   };
   Phase phase = Phase::idle;
-  std::string uri;         ///< of the newest request
-  SourceInfo source;       ///< once it is open
-  SourceState connection;  ///< of the source, while it is open
+  std::string opening;      ///< the source that is being opened; empty = none
+  std::int64_t opened = 0;  ///< sources opened so far
+  std::int64_t failed = 0;  ///< sources that could not be opened so far
+  std::string failure;      ///< why the last of those could not be opened, one line
+
+  // Of the source opened last:
+  std::string uri;
+  SourceInfo source;
+  SourceState connection;  ///< while it is open
   Ledger ledger;
   DurationHistogram latency;         ///< from capture to result, of this source
   std::string error;                 ///< what ended it, one line; empty = no error
@@ -47,10 +52,17 @@ struct SessionState {
 struct FrameRecord {
   std::int64_t index = 0;
   std::int64_t generation = 0;
-  float strength = 0;  ///< saliency of the first fixation; 0 = there is none
+  float strength = 0;  ///< largest saliency of its fixations; 0 = there is none
   StageTimes times;
   double latency_ms = 0;
   std::chrono::steady_clock::time_point at;
+};
+
+/// What a session has to show, all as of one moment.
+struct SessionUpdate {
+  SessionState state;
+  ViewResultPtr latest;              ///< the newest result of the source; null = none yet
+  std::vector<FrameRecord> records;  ///< of the frames computed since the last poll(), without drafts
 };
 
 /// The part of the viewer that computes or waits, on threads of its own: opens sources, plays them, computes
@@ -66,7 +78,9 @@ class Session {
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
 
-  /// Closes the open source and opens this one. Of several requests in a row only the newest counts.
+  /// Opens this source in place of the present one, which goes on until then, and stays if this one cannot be
+  /// opened. Only a sensor that may be the same device is closed first, and opened again after a failure. Of
+  /// several requests in a row only the newest counts.
   void open(OpenRequest request);
 
   /// Holds from now on; the frame on screen is computed again. Of several requests in a row only the newest
@@ -83,18 +97,23 @@ class Session {
   [[nodiscard]] std::vector<SensorMode> sensor_modes() const;
   void request_sensor(const SensorValues& wanted);
 
-  /// The newest result of the open source; null = none yet.
+  /// The newest result of the source; null = none yet.
   [[nodiscard]] ViewResultPtr latest() const;
 
-  /// The records of the frames computed since the last call, without drafts, at most kMostRecords.
-  [[nodiscard]] std::vector<FrameRecord> take_records();
+  /// Everything at once; at most kMostRecords records.
+  [[nodiscard]] SessionUpdate poll();
   static constexpr std::size_t kMostRecords = 4096;
 
  private:
   void work(const std::stop_token& token);
-  void run(const OpenRequest& request);
+  void replace_source(const OpenRequest& request);
+  std::optional<OpenRequest> close_if_same_device(const OpenRequest& request);
+  void start(std::unique_ptr<FrameSource> source, const OpenRequest& request);
+  void stop_running();
+  void run(Pipeline& pipeline);
   void consume(Pipeline& pipeline);
   void stop_pipeline();
+  SessionState state_now() const;
   void publish(std::shared_ptr<ViewResult> result);
   void change(const std::function<void(SessionState&)>& how);
 
@@ -107,14 +126,18 @@ class Session {
   std::optional<OpenRequest> to_open_;
   ComputeRequest compute_request_;
   std::int64_t generation_ = 0, serial_ = 0, computed_ = 0;
-  Pipeline* pipeline_ = nullptr;
+  std::unique_ptr<Pipeline> pipeline_;  // of the open source
   InteractiveProcessor* processor_ = nullptr;
   SensorControls* controls_ = nullptr;  // of the open source; null = it has none
+  bool replacing_ = false;              // the end of the pipeline is not the end of the source
   bool stopping_ = false;
   SessionState state_;
   ViewResultPtr latest_;
   std::vector<FrameRecord> records_;
-  std::jthread thread_;
+  // Of the opening thread only:
+  OpenRequest present_;  // of the source opened last
+  std::jthread runner_;  // of the open source
+  std::jthread opener_;
 };
 
 }  // namespace saccade

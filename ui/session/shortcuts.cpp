@@ -41,7 +41,7 @@ constexpr std::array kShortcuts = {
     Shortcut{Action::toggle_path, key_of('G'), false, false, kLook, "Scan path on or off"},
     Shortcut{Action::toggle_outlines, key_of('O'), false, false, kLook, "Outlines of proto-objects on or off"},
     Shortcut{Action::fit_picture, key_of('0'), false, false, kLook, "Fit picture"},
-    Shortcut{Action::next_comparison, key_of('C'), false, false, kLook, "Compare: off, side by side, split"},
+    Shortcut{Action::next_comparison, key_of('C'), false, false, kLook, "Next form of comparison"},
     Shortcut{Action::swap_sides, key_of('X'), false, false, kLook, "Swap A and B"},
     Shortcut{Action::next_centre, key_of('V'), false, false, kLook, "Picture, point cloud or both"},
 
@@ -50,8 +50,8 @@ constexpr std::array kShortcuts = {
     Shortcut{Action::record, key_of('R'), false, false, kGeneral, "Start or stop recording"},
     Shortcut{Action::toggle_sidebar, key_of('B'), false, false, kGeneral, "Side bar on or off"},
     Shortcut{Action::toggle_theme, key_of('T'), false, false, kGeneral, "Dark or light theme"},
-    Shortcut{Action::show_help, key_of('?'), false, false, kGeneral, "Keyboard shortcuts"},
-    Shortcut{Action::show_help, Key::f1, false, false, kGeneral, "Keyboard shortcuts"},
+    Shortcut{Action::show_help, key_of('?'), false, false, kGeneral, "Help: keys, mouse, glossary"},
+    Shortcut{Action::show_help, Key::f1, false, false, kGeneral, "Help: keys, mouse, glossary"},
     Shortcut{Action::quit, key_of('Q'), true, false, kGeneral, "Quit"},
 };
 // clang-format on
@@ -62,15 +62,23 @@ std::string name_of(Key key) {
       return "Left";
     case Key::right:
       return "Right";
+    case Key::up:
+      return "Up";
+    case Key::down:
+      return "Down";
     case Key::home:
       return "Home";
     case Key::end:
       return "End";
     case Key::f1:
       return "F1";
+    case Key::escape:
+      return "Esc";
     case Key::space:
       return "Space";
   }
+  if (key == key_of(',')) return "comma";
+  if (key == key_of('.')) return "full stop";
   return {static_cast<char>(key)};
 }
 

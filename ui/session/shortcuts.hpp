@@ -19,7 +19,7 @@ enum class Action {
 // clang-format on
 
 /// Keys without a character; a character is its own upper-case code.
-enum class Key : int { left = 0x100, right, home, end, f1, space = ' ' };
+enum class Key : int { left = 0x100, right, up, down, home, end, f1, escape, space = ' ' };
 constexpr Key key_of(char character) { return static_cast<Key>(character); }
 
 struct Shortcut {

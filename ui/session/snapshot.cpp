@@ -33,9 +33,11 @@ void write_side(const fs::path& folder, const Computed& computed, const OverlayS
   if (code)
     throw failed("cannot make a folder: " + code.message(), folder.string(), "is its parent writable?");
   const Result& result = computed.result;
-  write_frame(folder, result, {"maps", "overlay"}, 0, style);
+  Settings settings = computed.settings;
+  settings.overlay = style;
+  write_frame(folder, result, {"maps", "overlay", "depth", "colour", "cloud"}, 0, style);
   write_file(folder / fmt::format("{:06}_fixations.json", result.frame.index), fixations_json(result) + "\n");
-  write_file(folder / "settings.toml", std::string_view(settings_toml(computed.settings)));
+  write_file(folder / "settings.toml", std::string_view(settings_toml(settings)));
 }
 
 }  // namespace

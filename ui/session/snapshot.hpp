@@ -8,10 +8,10 @@
 namespace saccade {
 
 /// Writes the result on screen into a new folder `base`/snapshot-YYYYMMDD-HHMMSS of local time (with -2, -3,
-/// ... if that exists): NNNNNN_overlay.png in `style`, NNNNNN_saliency.tiff and .png as `saccade run` writes
-/// them, NNNNNN_fixations.json (the frame's line of fixations.jsonl), and settings.toml, with which `saccade
-/// run --config` computes the same; for a comparison in subfolders a/ and b/. Returns the folder. Takes some
-/// 100 ms: not for the thread that draws. Throws Error (failed).
+/// ... if that exists): NNNNNN_overlay.png in `style`; depth, colour, point cloud and map as `saccade run`
+/// writes them, NNNNNN_fixations.json (the frame's line of fixations.jsonl), and settings.toml, with which
+/// `saccade run --config` computes the same; for a comparison in subfolders a/ and b/. Returns the folder.
+/// Takes some 100 ms: not for the thread that draws. Throws Error (failed).
 [[nodiscard]] std::filesystem::path write_snapshot(const std::filesystem::path& base,
                                                    const ViewResult& result, const OverlayStyle& style,
                                                    std::chrono::system_clock::time_point now);

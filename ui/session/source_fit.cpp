@@ -1,5 +1,7 @@
 #include "ui/session/source_fit.hpp"
 
+#include <algorithm>
+#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
@@ -13,7 +15,14 @@ namespace {
 constexpr const char* kModelOfImage = "colour_symmetry2d";
 constexpr Selector kSelectorOfImage = Selector::wta;
 
+// The kinds of sources that give a frame no time of its own.
+constexpr std::array<std::string_view, 4> kKindsOfStills = {"folder", "osd", "images", "nyu"};
+
 }  // namespace
+
+bool has_stills(const SourceInfo& source) {
+  return std::ranges::find(kKindsOfStills, source.kind) != kKindsOfStills.end();
+}
 
 std::vector<std::string> SourceFit::fit(ComparedSettings& settings, const SourceInfo& source) {
   restore(settings);

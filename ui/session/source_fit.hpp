@@ -10,6 +10,9 @@
 
 namespace saccade {
 
+/// Whether the frames of a source are stills, without times: a viewer shows them one by one.
+[[nodiscard]] bool has_stills(const SourceInfo& source);
+
 /// Replaces settings that give nothing on a source without depth, and restores them when a source with depth
 /// is opened.
 class SourceFit {

@@ -5,7 +5,7 @@
 
 namespace saccade {
 
-/// The saliency of the first fixation of every computed frame of a recording.
+/// The saliency of the strongest fixation of every computed frame of a recording.
 class Timeline {
  public:
   struct Entry {

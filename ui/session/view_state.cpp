@@ -26,6 +26,24 @@ void remember_source(ViewState& state, const std::string& uri) {
   if (state.recent.size() > kMostRecent) state.recent.resize(kMostRecent);
 }
 
+OverlayStyle shown_style(const ViewState& state) {
+  OverlayStyle style = state.style;
+  if (!state.show_map) style.map.opacity = 0;
+  return style;
+}
+
+MapStyle shown_map_style(const ViewState& state, const ViewResult& result) {
+  MapStyle style = state.style.map;
+  if (!state.comparing() || !state.common_range || style.range || !result.compared ||
+      result.a.settings.model != result.b.settings.model || !result.a.error.empty() ||
+      !result.b.error.empty())
+    return style;
+  const float high =
+      std::max(shown_range(result.a.smooth, style).high, shown_range(result.b.smooth, style).high);
+  if (high > 0) style.range = ValueRange{0, high};
+  return style;
+}
+
 std::vector<std::string> choices_of(std::string_view key) { return setting_spec(key).words; }
 
 void next_model(Settings& settings, int step) {

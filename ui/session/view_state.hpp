@@ -13,15 +13,16 @@
 #include "output/overlay.hpp"
 #include "ui/session/cloud_vertices.hpp"
 #include "ui/session/compared_settings.hpp"
+#include "ui/session/view_result.hpp"
 
 namespace saccade {
 
-enum class Comparison { off, side_by_side, split };
+enum class Comparison { off, side_by_side, split, difference };
 enum class Centre { picture, cloud, both };
 enum class Theme { dark, light };
 
 /// The panels of the side bar, each open or closed.
-enum class SidebarPanel { tuning, display, probe, performance, sensors, count };
+enum class SidebarPanel { tuning, display, fixations, probe, performance, sensors, count };
 constexpr std::size_t kSidebarPanels = static_cast<std::size_t>(SidebarPanel::count);
 
 /// The state of the window that persists between sessions.
@@ -30,16 +31,19 @@ struct ViewState {
   OverlayStyle style;
   bool show_map = true;
   Comparison comparison = Comparison::off;
-  bool edit_b = false;   ///< while comparing: the tuning panel edits B
-  double divider = 0.5;  ///< of the split, share of the picture's width
+  bool edit_b = false;       ///< while comparing: the tuning panel edits B
+  bool common_range = true;  ///< A and B have the colours of one range, unless their models differ
+  double divider = 0.5;      ///< of the split, share of the picture's width
   Centre centre = Centre::picture;
   CloudStyle cloud;
   Theme theme = Theme::dark;
   double ui_scale = 0;  ///< 0 = the screen's own scale
+  bool welcome = true;  ///< the welcome card at a start without a source
   bool sidebar = true;
   double sidebar_width = 340;  ///< px at scale 1
-  std::array<bool, kSidebarPanels> open = {true, true, false, false, false};
+  std::array<bool, kSidebarPanels> open = {true, true, false, false, false, false};
   cv::Size window{1280, 800};
+  std::string folder;  ///< for recordings and snapshots; empty = the working directory, or the home folder
   std::vector<std::string> recent;  ///< sources, newest first
 
   bool& is_open(SidebarPanel panel) { return open[static_cast<std::size_t>(panel)]; }
@@ -51,9 +55,17 @@ struct ViewState {
 };
 
 constexpr std::size_t kMostRecent = 8;
+constexpr double kNarrowestSidebar = 300, kWidestSidebar = 700;  ///< px at scale 1
 
 /// Moves a source to the front of the recent ones.
 void remember_source(ViewState& state, const std::string& uri);
+
+/// The style of an overlay that looks like the picture: without a map if that is hidden.
+[[nodiscard]] OverlayStyle shown_style(const ViewState& state);
+
+/// The style of both maps of a comparison: on one range where the state asks for it, none is locked, and both
+/// are of one model.
+[[nodiscard]] MapStyle shown_map_style(const ViewState& state, const ViewResult& result);
 
 /// The next model or palette, from the last one back to the first; `step` 1 or -1.
 void next_model(Settings& settings, int step);

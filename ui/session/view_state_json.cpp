@@ -12,12 +12,12 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::array<std::string_view, 3> kComparisons = {"off", "side_by_side", "split"};
+constexpr std::array<std::string_view, 4> kComparisons = {"off", "side_by_side", "split", "difference"};
 constexpr std::array<std::string_view, 3> kCentres = {"picture", "cloud", "both"};
 constexpr std::array<std::string_view, 3> kCloudColours = {"image", "depth", "saliency"};
 constexpr std::array<std::string_view, 2> kThemes = {"dark", "light"}, kBackgrounds = {"colour", "depth"};
-constexpr std::array<std::string_view, kSidebarPanels> kPanelNames = {"tuning", "display", "probe",
-                                                                      "performance", "sensors"};
+constexpr std::array<std::string_view, kSidebarPanels> kPanelNames = {"tuning", "display",     "fixations",
+                                                                      "probe",  "performance", "sensors"};
 
 template <typename Enum, std::size_t N>
 std::string word(const std::array<std::string_view, N>& words, Enum value) {
@@ -102,6 +102,7 @@ std::string view_state_json(const ViewState& state) {
                      {"marks", state.style.marks},
                      {"path", state.style.path},
                      {"comparison", word(kComparisons, state.comparison)},
+                     {"common_range", state.common_range},
                      {"divider", state.divider},
                      {"centre", word(kCentres, state.centre)},
                      {"cloud_colour", word(kCloudColours, state.cloud.colour)},
@@ -110,10 +111,13 @@ std::string view_state_json(const ViewState& state) {
                      {"cloud_fixations", state.cloud.fixations},
                      {"cloud_point_size", state.cloud.point_size},
                      {"theme", word(kThemes, state.theme)},
+                     {"welcome", state.welcome},
                      {"sidebar", state.sidebar},
                      {"sidebar_width", state.sidebar_width},
+                     {"text_size", state.ui_scale},
                      {"open", open},
                      {"window", {state.window.width, state.window.height}},
+                     {"folder", state.folder},
                      {"recent", state.recent}};
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
@@ -136,6 +140,7 @@ void apply_view_state(ViewState& state, const std::string& text) {
   read(json, "marks", state.style.marks);
   read(json, "path", state.style.path);
   read(json, "comparison", kComparisons, state.comparison);
+  read(json, "common_range", state.common_range);
   read(json, "divider", state.divider, 0.02, 0.98);
   read(json, "centre", kCentres, state.centre);
   read(json, "cloud_colour", kCloudColours, state.cloud.colour);
@@ -146,8 +151,10 @@ void apply_view_state(ViewState& state, const std::string& text) {
   read(json, "cloud_point_size", point_size, kSmallestPoint, kLargestPoint);
   state.cloud.point_size = static_cast<float>(point_size);
   read(json, "theme", kThemes, state.theme);
+  read(json, "welcome", state.welcome);
   read(json, "sidebar", state.sidebar);
-  read(json, "sidebar_width", state.sidebar_width, 260, 700);
+  read(json, "sidebar_width", state.sidebar_width, kNarrowestSidebar, kWidestSidebar);
+  read(json, "text_size", state.ui_scale, 0, 4);
   if (const auto open = json.find("open"); open != json.end() && open->is_object())
     for (std::size_t i = 0; i < kSidebarPanels; ++i)
       read(*open, std::string(kPanelNames[i]).c_str(), state.open[i]);
@@ -156,6 +163,8 @@ void apply_view_state(ViewState& state, const std::string& text) {
                                                (*window)[1].is_number_integer())
     state.window = {std::clamp((*window)[0].get<int>(), 480, 16384),
                     std::clamp((*window)[1].get<int>(), 360, 16384)};
+  if (const auto folder = json.find("folder"); folder != json.end() && folder->is_string())
+    state.folder = folder->get<std::string>();
   if (const auto recent = json.find("recent"); recent != json.end() && recent->is_array())
     for (auto uri = recent->rbegin(); uri != recent->rend(); ++uri)
       if (uri->is_string()) remember_source(state, uri->get<std::string>());

@@ -1,6 +1,9 @@
 // The actions of shortcuts and buttons.
+#include <algorithm>
+
 #include <imgui.h>
 
+#include "ui/panels/widgets.hpp"
 #include "ui/session/command_line.hpp"
 #include "ui/window/viewer.hpp"
 
@@ -9,9 +12,51 @@ namespace saccade {
 void Viewer::handle_keys() {
   const bool typing = ImGui::GetIO().WantTextInput || ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId);
   for (const Window::KeyPress& press : window_.take_keys()) {
+    if (press.key == Key::escape) {
+      escape();
+      continue;
+    }
+    if (!typing && move_pin(press)) continue;
     const auto action = action_of(press.key, press.ctrl, press.shift);
-    if (action && (!typing || *action == Action::quit)) act(*action);
+    const bool closes_help = action == Action::show_help && help_.is_open();
+    if (action && (!typing || closes_help || *action == Action::quit)) act(*action);
   }
+}
+
+// Closes the topmost list or dialog; without one it frees probe and fixation.
+void Viewer::escape() {
+  if (ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId)) return close_top_popup();
+  view_.pinned.reset();
+  view_.measured.reset();
+  view_.lock.unlock();
+}
+
+// While the probe is pinned the arrow keys move it, with Shift by ten pixels.
+bool Viewer::move_pin(const Window::KeyPress& press) {
+  if (!view_.pinned || !view_.result || press.ctrl) return false;
+  const int step = press.shift ? 10 : 1;
+  cv::Point by;
+  switch (press.key) {
+    case Key::left:
+      by.x = -step;
+      break;
+    case Key::right:
+      by.x = step;
+      break;
+    case Key::up:
+      by.y = -step;
+      break;
+    case Key::down:
+      by.y = step;
+      break;
+    default:
+      return false;
+  }
+  view_.lock.unlock();
+  const cv::Size size = view_.result->frame().size();
+  view_.pinned = cv::Point(std::clamp(view_.pinned->x + by.x, 0, size.width - 1),
+                           std::clamp(view_.pinned->y + by.y, 0, size.height - 1));
+  return true;
 }
 
 void Viewer::act(Action action) {
@@ -125,7 +170,7 @@ bool Viewer::act_on_picture(Action action) {
       picture_.fit();
       return true;
     case Action::next_comparison:
-      state_.comparison = next(state_.comparison, 3);
+      state_.comparison = next(state_.comparison, 4);
       return true;
     case Action::next_centre:
       state_.centre = next(state_.centre, 3);
@@ -153,7 +198,7 @@ void Viewer::act_on_window(Action action) {
       sidebar_.sensors().toggle_recording(view_);
       break;
     case Action::show_help:
-      help_ = true;
+      help_.toggle();
       break;
     case Action::quit:
       window_.close();
@@ -167,8 +212,13 @@ void Viewer::act_on_window(Action action) {
 void Viewer::copy_command() {
   const bool recorded = !view_.source.source.live && view_.result;
   const std::int64_t index = recorded ? view_.result->frame().index : -1;
-  std::string text = run_command_line(view_.source.uri, state_.settings.a, index);
-  if (state_.comparing()) text += "\n" + run_command_line(view_.source.uri, state_.settings.b, index);
+  const std::string program = program_word();
+  const auto line = [&](Settings settings) {
+    settings.overlay = shown_style(state_);
+    return run_command_line(program, view_.source.uri, settings, index);
+  };
+  std::string text = line(state_.settings.a);
+  if (state_.comparing()) text += "\n" + line(state_.settings.b);
   ImGui::SetClipboardText(text.c_str());
   view_.notify("Copied: " + text);
 }

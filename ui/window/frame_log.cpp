@@ -34,6 +34,8 @@ void Viewer::log_frame(double busy_ms) {
       {"recording", view_.recording.phase != RecordingStatus::Phase::idle},
       {"recorded", {{"file", view_.recording.file.string()}, {"frames", view_.recording.frames}}},
       {"snapshot", view_.snapshot},
+      {"locked", view_.locked},
+      {"pinned", view_.pinned ? nlohmann::json{view_.pinned->x, view_.pinned->y} : nlohmann::json()},
       {"places", view_.places}};
   const SensorValues sensor = session_.sensor_values();
   if (sensor.mirror) line["mirror"] = *sensor.mirror;

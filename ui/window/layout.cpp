@@ -3,6 +3,7 @@
 
 #include <imgui.h>
 
+#include "ui/panels/widgets.hpp"
 #include "ui/window/viewer.hpp"
 
 namespace saccade {
@@ -29,12 +30,15 @@ void Viewer::draw_window() {
   };
   part("top", {0, ImGui::GetFrameHeight() + view_.px(16)}, [&] { draw_top_bar(view_); });
   ImGui::Dummy({0, view_.px(1)});
-  const float sidebar = state_.sidebar ? view_.px(state_.sidebar_width) : 0;
+  const float widest = std::max(view_.px(260), ImGui::GetContentRegionAvail().x - view_.px(300));
+  const float sidebar = state_.sidebar ? std::min(view_.px(state_.sidebar_width), widest) + view_.px(4) : 0;
   const float height = ImGui::GetContentRegionAvail().y;
   ImGui::BeginChild("body", {ImGui::GetContentRegionAvail().x - sidebar, height});
   draw_body(height);
   ImGui::EndChild();
   if (state_.sidebar) {
+    ImGui::SameLine();
+    draw_splitter(height);
     ImGui::SameLine();
     part("sidebar", {0, height}, [&] { sidebar_.draw(view_); });
   }
@@ -42,8 +46,18 @@ void Viewer::draw_window() {
   draw_notice();
   open_dialog_.draw(view_);
   settings_dialog_.draw(view_);
-  draw_help(view_, help_);
+  help_.draw(view_);
   ImGui::End();
+}
+
+// Between picture and side bar, whose width a drag changes.
+void Viewer::draw_splitter(float height) {
+  ImGui::InvisibleButton("splitter", {view_.px(4), height});
+  log_place(view_, "splitter");
+  if (ImGui::IsItemHovered() || ImGui::IsItemActive()) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
+  if (!ImGui::IsItemActive()) return;
+  const auto moved = static_cast<double>(ImGui::GetIO().MouseDelta.x) / view_.unit;
+  state_.sidebar_width = std::clamp(state_.sidebar_width - moved, kNarrowestSidebar, kWidestSidebar);
 }
 
 void Viewer::draw_body(float height) {
@@ -89,22 +103,29 @@ void Viewer::draw_centre() {
     ImGui::EndChild();
     ImGui::PopStyleVar();
   }
+  view_.centre_on.reset();
   draw_state_banner(view_, corner, {corner.x + room.x, corner.y + room.y});
+  draw_welcome(view_, corner, {corner.x + room.x, corner.y + room.y});
 }
 
+// At the bottom, above the transport, in as many lines as it needs; errors are at the top.
 void Viewer::draw_notice() {
   if (view_.notice.empty()) return;
   if (ImGui::GetTime() > view_.notice_until) {
     view_.notice.clear();
     return;
   }
-  const ImVec2 size = ImGui::CalcTextSize(view_.notice.c_str()), screen = ImGui::GetIO().DisplaySize;
+  const ImVec2 screen = ImGui::GetIO().DisplaySize;
   const ImVec2 pad{view_.px(14), view_.px(8)};
-  const ImVec2 corner{(screen.x - size.x) / 2 - pad.x, view_.px(64)};
+  const float wrap = 0.8F * screen.x - 2 * pad.x;
+  const char* text = view_.notice.c_str();
+  const ImVec2 size = ImGui::CalcTextSize(text, nullptr, false, wrap);
+  const ImVec2 corner{(screen.x - size.x) / 2 - pad.x, screen.y - view_.px(140) - size.y - 2 * pad.y};
   ImDrawList& draw = *ImGui::GetForegroundDrawList();
   draw.AddRectFilled(corner, {corner.x + size.x + 2 * pad.x, corner.y + size.y + 2 * pad.y},
                      IM_COL32(20, 24, 29, 235), view_.px(8));
-  draw.AddText({corner.x + pad.x, corner.y + pad.y}, IM_COL32(235, 238, 242, 255), view_.notice.c_str());
+  draw.AddText(ImGui::GetFont(), ImGui::GetFontSize(), {corner.x + pad.x, corner.y + pad.y},
+               IM_COL32(235, 238, 242, 255), text, nullptr, wrap);
 }
 
 }  // namespace saccade

@@ -16,14 +16,15 @@ using Clock = std::chrono::steady_clock;
 
 constexpr int kFramesAfterEvent = 3;  // ImGui's layout settles with the second, hovering with the third
 constexpr double kRefresh_s = 0.25, kIdle_s = 60;
+constexpr double kPatience_s = 1e9;  // with a sensor that is not connected: somebody sees that it is missing
 
 }  // namespace
 
 Viewer::Viewer(ViewState state, ViewerOptions options, Session::Open open_function,
-               DeviceWatch::List list_sensors)
+               DeviceWatch::List list_sensors, SensorAdvice::Ask ask_advice)
     : state_(std::move(state)),
       options_(std::move(options)),
-      window_("Saccade", options_.size.value_or(state_.window)),
+      window_("Saccade", options_.size.value_or(state_.window), !options_.size),
       session_(
           std::move(open_function),
           [this] {
@@ -33,8 +34,12 @@ Viewer::Viewer(ViewState state, ViewerOptions options, Session::Open open_functi
           ComputeRequest{state_.settings.a, {}, {}}),
       view_(state_, session_, graphics_),
       history_(state_.settings),
+      advice_(std::move(ask_advice), [] { Window::wake(); }),
       sidebar_(std::move(list_sensors), [] { Window::wake(); }),
+      open_dialog_([] { Window::wake(); }),
       sent_{state_.settings.a, {}, {}} {
+  view_.example = options_.example;
+  view_.welcome = options_.welcome && state_.welcome;
   share_source(state_.settings);
   view_.act = [this](Action action) { act(action); };
   view_.open = [this](const std::string& uri) { open(uri); };
@@ -88,17 +93,22 @@ bool Viewer::awaits_result() const {
 
 // Takes over the session's news; cheap, and done while the window is hidden too.
 void Viewer::poll() {
-  view_.source = session_.state();
+  SessionUpdate update = session_.poll();
+  view_.source = std::move(update.state);
+  view_.result = std::move(update.latest);
   view_.playback = session_.playback().state();
-  const ViewResultPtr latest = session_.latest();
-  if (latest && !view_.result) view_.timeline.reset(view_.source.source.frame_count.value_or(0));
-  view_.result = latest;
-  for (const FrameRecord& record : session_.take_records()) {
+  if (view_.source.opened != opened_) start_with_source();
+  for (const FrameRecord& record : update.records) {
     view_.timeline.add(record.index, record.strength, record.generation >= a_since_);
     view_.history.add(record.times, record.latency_ms, record.at);
   }
+  if (view_.result && !view_.result->frame().colour.empty()) {
+    view_.last_colour = view_.result->frame().colour;
+    view_.last_colour_index = view_.result->frame().index;
+  }
+  follow_lock();
   poll_errors();
-  fit_to_source();
+  poll_advice();
   captured_.count(view_.source.ledger.captured, Clock::now());
   view_.captured_hz = captured_.rate_hz();
   sidebar_.sensors().poll(view_);
@@ -106,29 +116,76 @@ void Viewer::poll() {
   const bool live = view_.source.source.live && view_.source.phase == SessionState::Phase::open;
   const bool recording = view_.recording.phase != RecordingStatus::Phase::idle;
   refresh_ = live || recording || !view_.notice.empty() || ImGui::GetIO().WantTextInput ||
-             view_.source.phase == SessionState::Phase::opening;
+             !view_.source.opening.empty();
+}
+
+// Finds the locked fixation in the frame on screen, and keeps the probe at it.
+void Viewer::follow_lock() {
+  view_.locked = -1;
+  if (!view_.result || !view_.lock.locked()) return;
+  const auto& fixations = view_.result->a.result.attention.fixations;
+  view_.locked = view_.lock.find(fixations);
+  if (view_.locked < 0) return;
+  const Fixation& fixation = fixations[static_cast<std::size_t>(view_.locked)];
+  view_.pinned = cv::Point(fixation.col, fixation.row);
+  view_.pinned_on_b = false;
+}
+
+// The session has replaced its source.
+void Viewer::start_with_source() {
+  opened_ = view_.source.opened;
+  sidebar_.sensors().end_recording();  // a recording holds one source
+  view_.timeline.reset(view_.source.source.frame_count.value_or(0));
+  view_.history.clear();
+  view_.errors.clear();
+  view_.recorded.clear();
+  view_.last_colour.release();
+  view_.lock.unlock();
+  view_.pinned.reset();
+  view_.measured.reset();
+  if (view_.source.uri != options_.example) view_.welcome = false;
+  reported_error_.clear();
+  remember_source(state_, view_.source.uri);
+  window_.set_title("Saccade: " + view_.source.uri);
+  picture_.reset();
+  cloud_.fit();
+  view_.notes = fit_.fit(state_.settings, view_.source.source);
+  if (has_stills(view_.source.source) && options_.screenshot.empty()) {
+    paused_for_stills_ |= !session_.playback().state().paused;
+    session_.playback().pause();
+    if (view_.source.source.frame_count.value_or(2) > 1)
+      view_.notify("Stills without times: the arrow keys go from one to the next, Space plays them");
+  } else if (std::exchange(paused_for_stills_, false)) {
+    session_.playback().play();
+  }
 }
 
 void Viewer::poll_errors() {
   const SessionState& s = view_.source;
-  if (s.phase != SessionState::Phase::ended) {
-    reported_error_.clear();
-    return;
+  std::string error;
+  if (s.failed != failed_) {
+    failed_ = s.failed;
+    error = s.failure;
+  } else if (s.phase == SessionState::Phase::ended) {
+    error = s.error;
+    if (error.empty() && s.ledger.processed == 0)
+      error = "No frame could be used: " + s.uri +
+              (s.rejected_reason.empty() ? "" : " (" + s.rejected_reason + ")");
+    if (error == reported_error_) return;
+    reported_error_ = error;
   }
-  std::string error = s.error;
-  if (error.empty() && s.ledger.processed == 0)
-    error = "No frame could be used: " + s.uri +
-            (s.rejected_reason.empty() ? "" : " (" + s.rejected_reason + ")");
-  if (error.empty() || error == reported_error_) return;
+  if (error.empty()) return;
   if (!options_.screenshot.empty()) throw failed("no screenshot", error, "");
-  reported_error_ = error;
   view_.errors.push_back(error);
 }
 
-void Viewer::fit_to_source() {
-  if (fitted_ || view_.source.phase != SessionState::Phase::open) return;
-  fitted_ = true;
-  view_.notes = fit_.fit(state_.settings, view_.source.source);
+// While the viewer waits for a sensor, it says why there may be none.
+void Viewer::poll_advice() {
+  const SessionState& s = view_.source;
+  const bool waiting =
+      s.phase == SessionState::Phase::open && s.connection.connection == SourceState::Connection::waiting;
+  if (waiting != advice_.active()) waiting ? advice_.ask() : advice_.clear();
+  view_.advice = advice_.poll();
 }
 
 void Viewer::scale_ui() {
@@ -189,19 +246,8 @@ void Viewer::open(const std::string& uri) {
   OpenRequest request{uri, {}, state_.settings.a.sensor};
   sent_sensor_ = request.sensor;
   if (uri == options_.source.uri) request.range = options_.source.range;
-  sidebar_.sensors().end_recording();  // a recording holds one source
+  if (options_.screenshot.empty()) request.sensor.wait_s = kPatience_s;
   session_.open(request);
-  view_.result.reset();
-  view_.timeline.reset(0);
-  view_.history.clear();
-  view_.errors.clear();
-  view_.notes.clear();
-  fitted_ = false;
-  reported_error_.clear();
-  if (!uri.empty()) remember_source(state_, uri);
-  window_.set_title("Saccade: " + uri);
-  picture_.reset();
-  cloud_.fit();
   frames_due_ = kFramesAfterEvent;
 }
 

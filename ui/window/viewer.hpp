@@ -10,9 +10,12 @@
 #include "core/file.hpp"
 #include "ui/drawing/gl_graphics.hpp"
 #include "ui/panels/cloud_panel.hpp"
+#include "ui/panels/open_dialog.hpp"
 #include "ui/panels/panels.hpp"
+#include "ui/panels/settings_dialog.hpp"
 #include "ui/panels/view_context.hpp"
 #include "ui/session/rate_meter.hpp"
+#include "ui/session/sensor_advice.hpp"
 #include "ui/session/settings_history.hpp"
 #include "ui/session/source_fit.hpp"
 #include "ui/window/window.hpp"
@@ -24,7 +27,9 @@ struct ViewerOptions {
   std::optional<cv::Size> size;   ///< of the window, instead of that of the last time
   std::string screenshot;         ///< PNG file; the viewer ends once it is written; empty = none
   std::int64_t after_frames = 1;  ///< computed frames before the screenshot
+  std::string example;            ///< path of the bundled recording; empty = it is not there
   std::string log;                ///< file for a line of JSON per frame of the window; empty = none
+  bool welcome = false;           ///< shows the welcome card, unless the user has turned that off
   bool paused = false;            ///< starts paused at the first frame
 };
 
@@ -32,7 +37,8 @@ struct ViewerOptions {
 class Viewer {
  public:
   /// Starts with a saved `state`. Throws Error (failed) where there is no display or no OpenGL 3.3.
-  Viewer(ViewState state, ViewerOptions options, Session::Open open, DeviceWatch::List list_sensors);
+  Viewer(ViewState state, ViewerOptions options, Session::Open open, DeviceWatch::List list_sensors,
+         SensorAdvice::Ask ask_advice);
 
   /// Runs until the window is closed or the screenshot is written. Throws Error (failed) if that is
   /// impossible.
@@ -47,15 +53,20 @@ class Viewer {
  private:
   bool awaits_result() const;
   void poll();
+  void start_with_source();
+  void follow_lock();
   void poll_errors();
-  void fit_to_source();
+  void poll_advice();
   void draw_frame();
   void draw_window();
+  void draw_splitter(float height);
   void draw_body(float height);
   void draw_centre();
   void draw_notice();
   void handle_keys();
   void act(Action action);
+  void escape();
+  bool move_pin(const Window::KeyPress& press);
   bool act_on_playback(Action action);
   bool act_on_tuning(Action action);
   bool act_on_picture(Action action);
@@ -77,13 +88,13 @@ class Viewer {
   ViewContext view_;
   SettingsHistory history_;
   SourceFit fit_;
-  bool fitted_ = false;  // to the open source
+  SensorAdvice advice_;
   PicturePanel picture_;
   CloudPanel cloud_;
   Sidebar sidebar_;
   OpenDialog open_dialog_;
   SettingsDialog settings_dialog_;
-  bool help_ = false;
+  HelpDialog help_;
   ComputeRequest sent_;
   SensorSettings sent_sensor_;
   RateMeter captured_;
@@ -91,8 +102,10 @@ class Viewer {
   double scale_ = 0;
   Theme theme_ = Theme::dark;
   int frames_due_ = 3;
-  bool refresh_ = false;  // something on screen changes with time
-  std::string reported_error_;
+  bool refresh_ = false;                  // something on screen changes with time
+  std::int64_t opened_ = 0, failed_ = 0;  // sources, as the window has reported them
+  bool paused_for_stills_ = false;        // not by the user
+  std::string reported_error_;            // of the present source
   std::optional<LineFile> log_;
   std::int64_t frames_ = 0;
   int shot_countdown_ = 3;  // frames for the layout to settle

@@ -31,12 +31,18 @@ std::optional<Key> key_pressed(int code, int scan) {
       return Key::left;
     case GLFW_KEY_RIGHT:
       return Key::right;
+    case GLFW_KEY_UP:
+      return Key::up;
+    case GLFW_KEY_DOWN:
+      return Key::down;
     case GLFW_KEY_HOME:
       return Key::home;
     case GLFW_KEY_END:
       return Key::end;
     case GLFW_KEY_F1:
       return Key::f1;
+    case GLFW_KEY_ESCAPE:
+      return Key::escape;
     case GLFW_KEY_SPACE:
       return Key::space;
     default:
@@ -49,9 +55,20 @@ std::optional<Key> key_pressed(int code, int scan) {
   return key_of(static_cast<char>(character));
 }
 
+// Without the bars of the desktop, where GLFW knows them.
+cv::Size size_on_screen(cv::Size size) {
+  GLFWmonitor* monitor = glfwGetPrimaryMonitor();
+  if (monitor == nullptr) return size;
+  int x = 0, y = 0;
+  cv::Size room;
+  glfwGetMonitorWorkarea(monitor, &x, &y, &room.width, &room.height);
+  if (room.empty()) return size;
+  return {std::min(size.width, room.width), std::min(size.height, room.height)};
+}
+
 }  // namespace
 
-Window::Window(const std::string& title, cv::Size size) {
+Window::Window(const std::string& title, cv::Size size, bool fit) {
   if (glfwInit() != GLFW_TRUE)
     throw failed("no display", glfw_reason(),
                  "start it in a desktop session, or use saccade run, which needs no window");
@@ -61,6 +78,7 @@ Window::Window(const std::string& title, cv::Size size) {
   glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
   glfwWindowHintString(GLFW_X11_CLASS_NAME, "saccade");
   glfwWindowHintString(GLFW_X11_INSTANCE_NAME, "saccade");  // GLFW uses both or none
+  if (fit) size = size_on_screen(size);
   window_ = glfwCreateWindow(size.width, size.height, title.c_str(), nullptr, nullptr);
   if (window_ == nullptr) {
     const std::string reason = glfw_reason();

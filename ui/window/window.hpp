@@ -19,8 +19,9 @@ namespace saccade {
 /// on it. One at a time; all calls on that thread, wake() excepted.
 class Window {
  public:
-  /// Throws Error (failed) where there is no display or no OpenGL 3.3.
-  Window(const std::string& title, cv::Size size);
+  /// `fit`: no larger than the screen has room for. Throws Error (failed) where there is no display or no
+  /// OpenGL 3.3.
+  Window(const std::string& title, cv::Size size, bool fit);
   ~Window();
   Window(const Window&) = delete;
   Window& operator=(const Window&) = delete;

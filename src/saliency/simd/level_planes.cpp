@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <limits>
 
+#include "saliency/simd/aligned_memory.hpp"
+
 namespace saccade {
 namespace {
 
@@ -42,7 +44,7 @@ LevelPlanes::LevelPlanes(cv::Size size, int reach)
   const std::size_t plane =
       static_cast<std::size_t>(stride_) * static_cast<std::size_t>(height_ + 2 * kMarginRows) +
       9 * kVectorFloats;
-  memory_ = hwy::AllocateAligned<float>(plane * kPlanes);
+  memory_ = allocate_aligned<float>(plane * kPlanes);
   for (std::size_t p = 0; p < kPlanes; ++p) {
     float* begin = memory_.get() + p * plane;
     std::fill(begin, begin + plane, p == kUsableInverse ? std::numeric_limits<float>::quiet_NaN() : 0.0f);

@@ -1,5 +1,7 @@
 #include "saliency/simd/row_prefix_sums.hpp"
 
+#include "saliency/simd/aligned_memory.hpp"
+
 namespace saccade {
 
 RowPrefixSums::RowPrefixSums(cv::Size size, int reach, int rows) {
@@ -9,7 +11,7 @@ RowPrefixSums::RowPrefixSums(cv::Size size, int reach, int rows) {
   // compete for the same lines of the first-level cache.
   const int pitch =
       (margin + (size.width + kVector + reach + 1) * kBytes + kPage - 1) / kPage * kPage + 17 * kLine;
-  memory_ = hwy::AllocateAligned<char>(static_cast<std::size_t>(pitch) * static_cast<std::size_t>(rows));
+  memory_ = allocate_aligned<char>(static_cast<std::size_t>(pitch) * static_cast<std::size_t>(rows));
   for (int r = 0; r < size.height; ++r) row_offset_.push_back(r % rows * pitch + margin);
 }
 

@@ -7,6 +7,7 @@
 
 #include <hwy/aligned_allocator.h>
 
+#include "saliency/simd/aligned_memory.hpp"
 #include "saliency/simd/row_prefix_sums.hpp"
 
 namespace saccade {
@@ -20,7 +21,7 @@ class PaddedRow {
   PaddedRow() = default;
   explicit PaddedRow(int width) {
     const std::size_t count = static_cast<std::size_t>(kLeft + width + kRight);
-    memory_ = hwy::AllocateAligned<T>(count);
+    memory_ = allocate_aligned<T>(count);
     for (std::size_t i = 0; i < count; ++i) memory_[i] = T{};
   }
   T* data() { return memory_.get() + kLeft; }  ///< at column 0, aligned to a vector

@@ -88,6 +88,25 @@ TEST_F(CloudDrawingTest, FixationsAreMarkedWhereTheyAre) {
   EXPECT_FALSE(test::ImGuiFrames::box_of(IM_COL32(80, 255, 80, 255), low, high));
 }
 
+TEST_F(CloudDrawingTest, AMarkerBehindASurfaceIsFaint) {
+  frame_.depth_mm = 500;  // the fixation is at 1000 mm
+  draw();
+  ImVec2 low, high;
+  EXPECT_TRUE(test::ImGuiFrames::box_of(IM_COL32(80, 255, 80, 255), low, high)) << "the sensor's own view";
+  drag(ImGuiMouseButton_Left, {300, 300}, {303, 300});
+  EXPECT_FALSE(test::ImGuiFrames::box_of(IM_COL32(80, 255, 80, 255), low, high));
+  EXPECT_TRUE(test::ImGuiFrames::box_of(IM_COL32(80, 255, 80, 90), low, high));
+}
+
+TEST_F(CloudDrawingTest, ADistanceIsDrawnBetweenItsEnds) {
+  state_.measured = {{-100, 0, 1000}, {100, 0, 1000}};
+  draw();
+  draw();
+  ImVec2 low, high;
+  ASSERT_TRUE(test::ImGuiFrames::box_of(IM_COL32(0, 0, 0, 190), low, high)) << "its length";
+  EXPECT_NEAR(low.x, 320, 10) << "in the middle between them";
+}
+
 TEST_F(CloudDrawingTest, AFixationWithoutAReadingHasNoMarker) {
   attention_.fixations[0].position_mm = {};
   draw();

@@ -3,72 +3,16 @@
 
 #include <gmock/gmock.h>
 
-#include "core/error.hpp"
-#include "tests/ui/support/fake_graphics.hpp"
-#include "tests/ui/support/imgui_frames.hpp"
+#include "panel_test.hpp"
+#include "ui/panels/open_dialog.hpp"
 #include "ui/panels/panels.hpp"
 #include "ui/panels/picture_drawing.hpp"
+#include "ui/panels/widgets.hpp"
 
 namespace saccade {
 namespace {
 
-using test::ImGuiFrames;
 using ::testing::Contains;
-
-class ViewerPanelsTest : public ::testing::Test {
- protected:
-  explicit ViewerPanelsTest(float width = 332, float height = 700) : frames_(width, height) {
-    view_.colours = &colours_of(Theme::dark);
-    view_.fonts = {ImGui::GetFont(), ImGui::GetIO().Fonts->Fonts[0]};
-    view_.act = [this](Action action) { acts_.push_back(action); };
-    view_.open = [this](const std::string& uri) { opened_ = uri; };
-  }
-
-  void show_result(cv::Size size = {640, 480}) {
-    auto result = std::make_shared<ViewResult>();
-    result->serial = 1;
-    for (Computed* side : {&result->a, &result->b}) {
-      side->result.frame.depth_mm = cv::Mat1f(size, 1000.0F);
-      side->result.maps.master = cv::Mat1f(size, 0.25F);
-      side->smooth = side->result.maps.master;
-      side->result.attention.fixations = {{100, 200, 1, {10, 20, 1000}, {}}, {300, 400, 0.5F, {}, {}}};
-    }
-    result->compared = true;
-    view_.result = result;
-    view_.source.phase = SessionState::Phase::open;
-    view_.source.source.size = size;
-    view_.source.source.frame_count = 16;
-    view_.timeline.reset(16);
-  }
-
-  using Draw = std::function<void()>;
-  ImGuiFrames::Drawn settled(const Draw& draw) {
-    frames_.frame(draw);
-    return frames_.frame(draw);
-  }
-
-  // A click on a share of the width of a thing whose place the panel logs.
-  void click(const char* place, const Draw& draw, float across = 0.5F) {
-    settled(draw);
-    const auto [left, top, right, bottom] = view_.places.at(place);
-    frames_.click({left + across * (right - left), (top + bottom) / 2}, draw);
-  }
-
-  void expect_fits(const Draw& draw) {
-    const auto drawn = settled(draw);
-    // Behind a pair of drag fields ImGui puts a label, here an empty one, after a gap.
-    EXPECT_LE(drawn.content_width, drawn.window_width + ImGui::GetStyle().ItemInnerSpacing.x);
-  }
-
-  ImGuiFrames frames_;
-  ViewState state_;
-  Session session_{[](auto&&...) -> std::unique_ptr<FrameSource> { throw failed("none", "", ""); }, [] {},
-                   ComputeRequest{}};
-  test::FakeGraphics graphics_;
-  ViewContext view_{state_, session_, graphics_};
-  std::vector<Action> acts_;
-  std::string opened_;
-};
 
 TEST_F(ViewerPanelsTest, TheKernelIsSetByItsSliderAndIsOdd) {
   const Draw draw = [this] { draw_tuning_panel(view_); };
@@ -155,6 +99,13 @@ TEST_F(TransportTest, ALiveSourceCannotBeStepped) {
     EXPECT_FALSE(view_.places.contains(button)) << button;
 }
 
+TEST_F(TransportTest, WithNothingOpenNothingCanBePressed) {
+  show_result();
+  view_.source.phase = SessionState::Phase::ended;
+  for (const char* button : {"play", "record"}) click(button, draw_);
+  EXPECT_THAT(acts_, ::testing::IsEmpty());
+}
+
 TEST_F(TransportTest, TheTimeLineShowsTheStrengthsAndThePresentFrame) {
   show_result();
   view_.timeline.add(3, 2, true);
@@ -191,16 +142,83 @@ TEST_F(WideTest, AnErrorStaysUntilItIsDismissed) {
   EXPECT_TRUE(view_.notes.empty());
 }
 
-TEST_F(WideTest, TheHelpShowsEveryShortcutAndFits) {
-  bool open = true;
-  const Draw draw = [&] { draw_help(view_, open); };
+TEST_F(WideTest, ARecordingAndANewSensorAreOffered) {
+  view_.recorded = "/tmp/a.oni";
+  view_.connected = {{"Xtion", "openni2:1", ""}};
+  const Draw draw = [this] { draw_messages(view_); };
+  click("play recorded", draw);
+  EXPECT_EQ(opened_, "/tmp/a.oni");
+  click("open connected", draw);
+  EXPECT_EQ(opened_, "openni2:1");
+  click("dismiss recorded", draw);
+  click("dismiss connected", draw);
+  EXPECT_TRUE(view_.recorded.empty() && view_.connected.empty());
+}
+
+TEST_F(WideTest, ASourceThatEndedWithAnErrorCanBeTriedAgain) {
+  view_.source.phase = SessionState::Phase::ended;
+  view_.source.uri = "a.oni";
+  view_.errors = {"the disk is gone"};
+  click("try again", [this] { draw_messages(view_); });
+  EXPECT_EQ(opened_, "a.oni");
+}
+
+TEST_F(WideTest, WhileASensorIsWaitedForThereIsARetry) {
+  view_.source.phase = SessionState::Phase::open;
+  view_.source.uri = "openni2";
+  view_.source.source.live = true;
+  view_.source.connection.connection = SourceState::Connection::waiting;
+  view_.advice = {"no USB device looks like a sensor: plug one in"};
+  click("retry", [this] { draw_state_banner(view_, {0, 0}, {1280, 800}); });
+  EXPECT_EQ(opened_, "openni2");
+}
+
+TEST_F(WideTest, TheOpenDialogOffersSensorsExamplesAndScenes) {
+  view_.sensors.devices = {{"Xtion", "openni2:1", "PS1080"}};
+  view_.example = "/data/table.oni";
+  state_.recent = {"/a/very/long/path/to/a/recording.oni"};
+  OpenDialog dialog([] {});
+  const Draw draw = [&] { dialog.draw(view_); };
+  for (const auto& [place, uri] : {std::pair("open Xtion", "openni2:1"),
+                                   {"open table.oni", "/data/table.oni"},
+                                   {"open recording.oni", "/a/very/long/path/to/a/recording.oni"},
+                                   {"open synthetic:room", "synthetic:room"}}) {
+    dialog.show();
+    click(place, draw);
+    EXPECT_EQ(opened_, uri);
+    settled(draw);
+    EXPECT_EQ(ImGui::GetCurrentContext()->OpenPopupStack.Size, 0) << "it closes";
+  }
+}
+
+TEST_F(WideTest, ADropDownListCanBeClosed) {
+  const Draw draw = [this] { draw_tuning_panel(view_); };
+  click("model", draw);
   settled(draw);
-  const ImGuiWindow* window = ImGui::FindWindowByName("Keyboard shortcuts");
+  const auto lists = [] { return ImGui::GetCurrentContext()->OpenPopupStack.Size; };
+  ASSERT_EQ(lists(), 1);
+  frames_.frame([&] {
+    close_top_popup();
+    draw();
+  });
+  settled(draw);
+  EXPECT_EQ(lists(), 0);
+}
+
+TEST_F(WideTest, TheHelpShowsEveryShortcutAndFits) {
+  HelpDialog help;
+  const Draw draw = [&] { help.draw(view_); };
+  help.toggle();
+  settled(draw);
+  EXPECT_TRUE(help.is_open());
+  const ImGuiWindow* window = ImGui::FindWindowByName("Help");
   ASSERT_NE(window, nullptr);
   EXPECT_LE(window->ContentSize.x, window->Size.x);
   EXPECT_LE(window->ContentSize.y, window->Size.y);
   EXPECT_LE(window->Size.y, 800 * 0.94F);
-  EXPECT_TRUE(open);
+  help.toggle();
+  settled(draw);
+  EXPECT_FALSE(help.is_open());
 }
 
 TEST_F(WideTest, TheStateIsShownInTheMiddleOnlyWhileSomethingIsWrong) {
@@ -232,13 +250,14 @@ class PictureDrawingTest : public WideTest {
     picture_.layout({640, 480}, {640, 480});
   }
   void draw(float left, float right, std::optional<ValueRange> depth = {}) {
-    const PictureSide side{{0, 0}, {640, 480}, {left, 0}, {right, 480}, is_b_};
+    const PictureSide side{{0, 0}, {640, 480}, {left, 0}, {right, 480}, kStrip, is_b_};
     settled([&] { draw_over_picture(view_, side, picture_, depth); });
   }
   bool has(ImU32 colour) {
     ImVec2 low, high;
     return ImGuiFrames::box_of(colour, low, high);
   }
+  static constexpr float kStrip = 27;
   PictureView picture_;
   bool is_b_ = false;
 };
@@ -285,6 +304,37 @@ TEST_F(PictureDrawingTest, WhereThereIsNoRoomNothingIsCutOff) {
     EXPECT_GE(low.x, left);
     EXPECT_LE(high.x, 640);
   }
+}
+
+TEST_F(PictureDrawingTest, TextsStandBesideThePicture) {
+  state_.style.marks = state_.style.path = false;
+  view_.pointer = cv::Point(100, 100);
+  draw(0, 640, ValueRange{500, 2000});
+  ImVec2 low, high;
+  ASSERT_TRUE(ImGuiFrames::box_of(view_.colours->chip, low, high));
+  EXPECT_LT(low.y, 0) << "the title is above it";
+  EXPECT_GT(high.y, 480) << "values and legends are below it";
+  for (const ImDrawVert& vertex : ImGui::GetDrawData()->CmdLists[0]->VtxBuffer)
+    if (vertex.col == view_.colours->chip) {
+      EXPECT_FALSE(vertex.pos.y > 0 && vertex.pos.y < 480) << vertex.pos.y;
+    }
+}
+
+TEST_F(PictureDrawingTest, ALockedRangeThatShowsNothingIsExplained) {
+  state_.style.map.range = ValueRange{10, 20};
+  draw(0, 640);
+  EXPECT_TRUE(has(colours_of(Theme::dark).warning));
+  state_.style.map.range = ValueRange{0, 1};
+  draw(0, 640);
+  EXPECT_FALSE(has(colours_of(Theme::dark).warning));
+}
+
+TEST_F(PictureDrawingTest, AFrameWithoutColourKeepsTheLastOneAndSaysSo) {
+  EXPECT_TRUE(view_.shown_frame().colour.empty());
+  view_.last_colour = cv::Mat3b(480, 640, cv::Vec3b(1, 2, 3));
+  EXPECT_EQ(view_.shown_frame().colour(0, 0), cv::Vec3b(1, 2, 3));
+  draw(0, 640);
+  EXPECT_TRUE(has(colours_of(Theme::dark).warning));
 }
 
 TEST_F(PictureDrawingTest, WhyThereIsNoMapIsWrittenOnThePicture) {

@@ -13,7 +13,7 @@ using namespace std::chrono_literals;
 
 constexpr auto kGenerous = 20s;
 
-TEST(DeviceWatch, ReportsArrivalsAndRemovalsWhileItIsActive) {
+TEST(DeviceWatch, ReportsArrivalsAndRemovals) {
   std::atomic<int> looks = 0;
   std::counting_semaphore<> changes(0);
   DeviceWatch watch(
@@ -24,11 +24,6 @@ TEST(DeviceWatch, ReportsArrivalsAndRemovalsWhileItIsActive) {
         return {{"Virtual", "openni2:virtual/0", ""}};
       },
       [&] { changes.release(); }, 1ms);
-  EXPECT_FALSE(watch.seen().devices.has_value());
-  EXPECT_FALSE(changes.try_acquire_for(20ms)) << "nobody wants to know yet";
-  EXPECT_EQ(looks, 0);
-
-  watch.set_active(true);
   for (int i = 0; i < 3; ++i) ASSERT_TRUE(changes.try_acquire_for(kGenerous));
   ASSERT_TRUE(watch.seen().devices.has_value());
   EXPECT_EQ(watch.seen().devices->front().name, "Virtual");
@@ -39,7 +34,6 @@ TEST(DeviceWatch, ReportsArrivalsAndRemovalsWhileItIsActive) {
 TEST(DeviceWatch, EndsWhileItWaits) {
   std::binary_semaphore looked(0);
   DeviceWatch watch([]() -> std::vector<DeviceChoice> { return {}; }, [&] { looked.release(); }, 1h);
-  watch.set_active(true);
   ASSERT_TRUE(looked.try_acquire_for(kGenerous));
 }
 

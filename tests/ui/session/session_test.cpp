@@ -43,8 +43,10 @@ class BallSource : public FrameSource {
   }
   void seek(std::int64_t index) override { next_ = index; }
 
- private:
+ protected:
   SourceInfo info_;
+
+ private:
   std::int64_t next_ = 0;
 };
 
@@ -89,7 +91,7 @@ TEST_F(SessionTest, ComputesAndWakes) {
   EXPECT_FALSE(result->compared);
   EXPECT_GT(woken_, 0);
   EXPECT_EQ(session->state().phase, Phase::open);
-  EXPECT_FALSE(session->take_records().empty());
+  EXPECT_FALSE(session->poll().records.empty());
 }
 
 TEST_F(SessionTest, ResultsThatAreHeldDoNotChange) {
@@ -161,15 +163,104 @@ TEST_F(SessionTest, AComputationThatFailsIsReportedAndRecovers) {
 TEST_F(SessionTest, ASourceThatFailsIsReportedAndAnotherCanBeOpened) {
   const auto session = make();
   session->open({.uri = "absent"});
-  ASSERT_TRUE(wait_for([&] { return session->state().phase == Phase::ended; }));
-  EXPECT_THAT(session->state().error, HasSubstr("no such source"));
+  ASSERT_TRUE(wait_for([&] { return session->state().failed == 1; }));
+  EXPECT_THAT(session->state().failure, HasSubstr("no such source"));
+  EXPECT_EQ(session->state().phase, Phase::idle);
+  EXPECT_EQ(session->state().opening, "");
   session->open({.uri = "breaks"});
   ASSERT_TRUE(wait_for([&] { return session->state().phase == Phase::ended; }));
   EXPECT_THAT(session->state().error, HasSubstr("the device is gone"));
   EXPECT_EQ(session->state().ledger.in_flight(), 0);
   session->open({.uri = "ball"});
-  ASSERT_TRUE(wait_for([&] { return session->latest() != nullptr; }));
+  ASSERT_TRUE(wait_for([&] { return session->state().opened == 2; }));
+  EXPECT_TRUE(wait_for([&] { return session->latest() != nullptr; }));
   EXPECT_EQ(session->state().error, "");
+}
+
+TEST_F(SessionTest, ASourceGoesOnUntilAnotherIsOpenAndAfterAFailure) {
+  const auto session = make();
+  session->open({.uri = "ball"});
+  ASSERT_TRUE(wait_for([&] { return session->latest() != nullptr; }));
+  std::atomic<int> tapped = 0;
+  session->playback().set_tap([&](const Frame&) { ++tapped; });
+  session->open({.uri = "absent"});
+  ASSERT_TRUE(wait_for([&] { return session->state().failed == 1; }));
+  const SessionState after = session->state();
+  EXPECT_EQ(after.phase, Phase::open);
+  EXPECT_EQ(after.uri, "ball");
+  EXPECT_EQ(after.opened, 1);
+  EXPECT_NE(session->latest(), nullptr);
+  const int before = tapped;
+  EXPECT_TRUE(wait_for([&] { return tapped > before + 5; })) << "it is still recorded";
+
+  session->open({.uri = "other"});
+  ASSERT_TRUE(wait_for([&] { return session->state().opened == 2; }));
+  EXPECT_EQ(session->state().uri, "other");
+  const int ended = tapped;
+  ASSERT_TRUE(wait_for([&] { return session->latest() != nullptr; }));
+  EXPECT_EQ(tapped, ended) << "a recording holds one source";
+}
+
+// "sensor" can be open once at a time; "sensor:gone" is not connected.
+class SensorSource : public BallSource {
+ public:
+  SensorSource(const std::string& uri, std::atomic<int>& open) : BallSource(uri), open_(open) {
+    if (open_++ > 0) ADD_FAILURE() << uri << " is opened while it is in use";
+    info_.kind = "sensor";
+    info_.live = true;
+    info_.frame_count.reset();
+  }
+  ~SensorSource() override { --open_; }
+  SensorSource(const SensorSource&) = delete;
+  SensorSource& operator=(const SensorSource&) = delete;
+  ReadResult read(Frame& frame, std::chrono::milliseconds timeout) override {
+    seek(0);
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    return BallSource::read(frame, timeout);
+  }
+  SourceState state() const override {
+    SourceState state;
+    if (info_.uri == "sensor:gone") state.connection = SourceState::Connection::waiting;
+    return state;
+  }
+
+ private:
+  std::atomic<int>& open_;
+};
+
+TEST_F(SessionTest, ASensorIsClosedBeforeItIsOpenedAgainAndComesBackAfterAFailure) {
+  std::atomic<int> open = 0;
+  Session session(
+      [&](const std::string& uri, auto&&...) -> std::unique_ptr<FrameSource> {
+        return std::make_unique<SensorSource>(uri, open);
+      },
+      [] {}, ComputeRequest{});
+  session.open({.uri = "sensor"});
+  ASSERT_TRUE(wait_for([&] { return session.latest() != nullptr; }));
+  session.open({.uri = "sensor"});
+  ASSERT_TRUE(wait_for([&] { return session.state().opened == 2; }));
+  session.open({.uri = "sensor:gone"});
+  ASSERT_TRUE(wait_for([&] { return session.state().failed == 1; }));
+  EXPECT_THAT(session.state().failure, HasSubstr("not connected"));
+  EXPECT_EQ(session.state().phase, Phase::open);
+  EXPECT_EQ(session.state().uri, "sensor");
+  EXPECT_TRUE(wait_for([&] { return session.latest() != nullptr; })) << "it is open again";
+}
+
+TEST_F(SessionTest, TheStrengthOfAFrameIsThatOfItsStrongestFixation) {
+  const auto session = make();
+  session->playback().pause();
+  session->open({.uri = "ball"});
+  SessionUpdate update;
+  ASSERT_TRUE(wait_for([&] {
+    update = session->poll();
+    return !update.records.empty();
+  }));
+  float strongest = 0;
+  for (const Fixation& fixation : update.latest->a.result.attention.fixations)
+    strongest = std::max(strongest, fixation.saliency);
+  EXPECT_GT(strongest, 0);
+  EXPECT_EQ(update.records[0].strength, strongest);
 }
 
 TEST_F(SessionTest, SeeksExactly) {
@@ -187,8 +278,8 @@ TEST_F(SessionTest, SeeksExactly) {
 TEST_F(SessionTest, AStartPastTheEndIsReported) {
   const auto session = make();
   session->open({.uri = "ball", .range = {.start = 30}});
-  ASSERT_TRUE(wait_for([&] { return session->state().phase == Phase::ended; }));
-  EXPECT_THAT(session->state().error, HasSubstr("--start 30 is past the last frame"));
+  ASSERT_TRUE(wait_for([&] { return session->state().failed == 1; }));
+  EXPECT_THAT(session->state().failure, HasSubstr("--start 30 is past the last frame"));
 }
 
 TEST_F(SessionTest, AnotherCameraHoldsForTheFrameThatIsShown) {

@@ -16,6 +16,7 @@ class SnapshotTest : public FolderTest {
   SnapshotTest() {
     result_.frame.index = 7;
     result_.frame.depth_mm = cv::Mat1f(48, 64, 1000.0F);
+    result_.frame.colour = cv::Mat3b(48, 64, cv::Vec3b(10, 20, 30));
     result_.frame.intrinsics = Intrinsics::guess_for({64, 48});
     result_.maps.master = cv::Mat1f(48, 64, 0.0F);
     result_.maps.master(20, 30) = 1.25F;
@@ -32,6 +33,13 @@ TEST_F(SnapshotTest, HoldsOverlayMapAndFixations) {
   EXPECT_EQ(cv::norm(map, result_.maps.master), 0);
   const cv::Mat3b overlay = cv::imread((folder / "000007_overlay.png").string());
   EXPECT_EQ(cv::norm(overlay, draw_overlay(result_.frame, result_.maps.master, result_.attention, style)), 0);
+  const cv::Mat1w depth = cv::imread((folder / "000007_depth.png").string(), cv::IMREAD_UNCHANGED);
+  EXPECT_EQ(cv::countNonZero(depth != 1000), 0);
+  const cv::Mat3b colour = cv::imread((folder / "000007_rgb.png").string());
+  EXPECT_EQ(cv::norm(colour, result_.frame.colour), 0);
+  const auto ply = read_file(folder / "000007_cloud.ply");
+  const std::string header(ply.begin(), ply.begin() + 60);
+  EXPECT_NE(header.find("element vertex 3072"), std::string::npos) << header;
   const auto json = read_file(folder / "000007_fixations.json");
   EXPECT_EQ(std::string(json.begin(), json.end()), fixations_json(result_) + "\n");
 }

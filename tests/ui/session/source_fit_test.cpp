@@ -59,5 +59,17 @@ TEST(SourceFit, ReportsNotesOfTheSourceAndLevelsThatDoNotFit) {
   EXPECT_THAT(SourceFit().fit(settings, small), ElementsAre("a gap"));
 }
 
+TEST(SourceFit, OnlySourcesWithoutTimesHaveStills) {
+  SourceInfo source;
+  for (const char* kind : {"folder", "osd", "images", "nyu"}) {
+    source.kind = kind;
+    EXPECT_TRUE(has_stills(source)) << kind;
+  }
+  for (const char* kind : {"oni", "tum", "video", "synthetic", "openni2"}) {
+    source.kind = kind;
+    EXPECT_FALSE(has_stills(source)) << kind;
+  }
+}
+
 }  // namespace
 }  // namespace saccade

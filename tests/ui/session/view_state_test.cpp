@@ -126,13 +126,21 @@ TEST(ViewState, StepsThroughModelsKernelsAndSpeeds) {
 
 TEST(CommandLine, HoldsOnlySettingsThatDifferFromTheDefault) {
   Settings s;
-  EXPECT_EQ(run_command_line("a b.oni", s, 7), "saccade run 'a b.oni' --out out/view --frames 1 --start 7");
+  EXPECT_EQ(run_command_line("saccade", "a b.oni", s, 7),
+            "saccade run 'a b.oni' --out out/view --frames 1 --start 7");
   s.kernel = 31;
   s.model = "combined";
   s.quiet = true;
+  s.sensor.registration = false;
+  s.sensor.mirror = true;
+  s.overlay.map.palette = Palette::viridis;
+  s.overlay.map.range = ValueRange{0, 0.1F};
+  s.overlay.path = false;
   apply_setting(s, "levels", "0..4");
-  EXPECT_EQ(run_command_line("dir", s, -1),
-            "saccade run dir --out out/view --model combined --kernel 31 --levels 0..4");
+  EXPECT_EQ(
+      run_command_line("/opt/my tools/saccade", "dir", s, -1),
+      "'/opt/my tools/saccade' run dir --out out/view --model combined --kernel 31 --levels 0..4 "
+      "--no-registration --mirror --overlay fixations,outlines --map-colours viridis --map-range 0..0.1");
 }
 
 TEST(CommandLine, WordsSurviveAShell) {

@@ -123,7 +123,7 @@ TEST_F(ViewerTest, TheScreenshotShowsTheFrameAtAnyScale) {
   keep_state(R"({"map": false, "marks": false, "path": false, "outlines": false})");
   for (const char* scale : {"1", "2"}) {
     ASSERT_EQ(run({kTable, "--start", "5", "--frames", "1", "--size", "1280x800", "--ui-scale", scale,
-                   "--screenshot", in("shot.png")}),
+                   "--min-confidence", "0", "--screenshot", in("shot.png")}),
               0);
     const cv::Mat3b shot = decode_png(read_file(in("shot.png")));
     ASSERT_EQ(shot.size(), cv::Size(1280, 800));
@@ -134,6 +134,7 @@ TEST_F(ViewerTest, TheScreenshotShowsTheFrameAtAnyScale) {
 }
 
 TEST_F(ViewerTest, PlaysTunesComparesAndQuits) {
+  keep_state(R"({"welcome": false})");
   start({"--size", "1280x800"});  // without SOURCE: the bundled recording
   EXPECT_EQ(now()["source"], std::filesystem::canonical(kTable).string());
   EXPECT_TRUE(until([](const Json& j) { return j["position"] > 1; })) << "it plays";
@@ -188,8 +189,8 @@ TEST_F(ViewerTest, RecordsAndTakesSnapshots) {
       EXPECT_EQ(decode_png(read_file(entry.path())).size(), cv::Size(640, 480));
     }
   }
-  EXPECT_EQ(kinds, (std::set<std::string>{"_fixations.json", "_overlay.png", "_saliency.png",
-                                          "_saliency.tiff", "settings.toml"}));
+  EXPECT_EQ(kinds, (std::set<std::string>{"_cloud.ply", "_depth.png", "_fixations.json", "_overlay.png",
+                                          "_rgb.png", "_saliency.png", "_saliency.tiff", "settings.toml"}));
   EXPECT_TRUE(now()["errors"].empty());
 }
 
@@ -232,6 +233,34 @@ TEST_F(ViewerTest, ALostSensorIsTakenUpAgain) {
   EXPECT_TRUE(now()["errors"].empty());
 }
 
+// A click on the picture pins the probe, a click on a row of the table locks its fixation.
+TEST_F(ViewerTest, TheProbeIsPinnedAndAFixationIsFollowed) {
+  keep_state(R"({"open": {"tuning": false, "display": false, "fixations": true}})");
+  start({kTable, "--paused"});
+  ASSERT_TRUE(until([](const Json& j) { return j["places"].contains("fixation 3"); }));
+  click("picture", 0.5);
+  ASSERT_TRUE(until([](const Json& j) { return j["pinned"].is_array(); }));
+  const int column = now()["pinned"][0];
+  xdotool("key Right");
+  EXPECT_TRUE(until([&](const Json& j) { return j["pinned"][0] == column + 1; }));
+  EXPECT_EQ(now()["shown"]["index"], 0) << "the frame stays";
+  click("fixation 3", 0.5);
+  EXPECT_TRUE(until([](const Json& j) { return j["locked"] == 2; }));
+  xdotool("key Escape");
+  EXPECT_TRUE(until([](const Json& j) { return j["locked"] == -1 && j["pinned"].is_null(); }));
+  xdotool("key Right");
+  EXPECT_TRUE(until([](const Json& j) { return shown(j, "index") == 1; }));
+}
+
+TEST_F(ViewerTest, TheWelcomeCardOpensASource) {
+  start({"--size", "1024x700"});
+  ASSERT_TRUE(until([](const Json& j) { return j["places"].contains("welcome open"); }));
+  click("welcome open", 0.5);
+  ASSERT_TRUE(until([](const Json& j) { return j["places"].contains("open synthetic:cone"); }));
+  click("open synthetic:cone", 0.2);
+  EXPECT_TRUE(until([](const Json& j) { return j["source"] == "synthetic:cone" && j.contains("shown"); }));
+}
+
 TEST_F(ViewerTest, AFileThatIsDroppedIsOpened) {
   start({"synthetic:sphere", "--paused"});
   EXPECT_TRUE(XDesktop(display(), "saccade").drop(kTable));
@@ -248,12 +277,18 @@ TEST_F(ViewerTest, MinimisedItComputesButDoesNotDraw) {
   EXPECT_TRUE(until([&](const Json& j) { return j["processed"] > processed + 1; })) << "it went on";
 }
 
-TEST_F(ViewerTest, AnErrorLeavesTheWindowAlive) {
-  start({kTable, "--paused"});
-  ASSERT_TRUE(until([](const Json& j) { return j["errors"].empty(); }));
+TEST_F(ViewerTest, AMistypedSourceIsReportedAndThePresentOneGoesOn) {
+  start({kTable});
+  xdotool("key r");
+  ASSERT_TRUE(until([](const Json& j) { return j["recording"] == true && j["recorded"]["frames"] > 1; }));
   type_source("/no/such.oni");
   ASSERT_TRUE(until([](const Json& j) { return j["errors"].size() == 1; }));
   EXPECT_NE(now()["errors"][0].get<std::string>().find("/no/such.oni"), std::string::npos);
+  const Json then = now();
+  EXPECT_EQ(then["source"], kTable);
+  EXPECT_TRUE(until([&](const Json& j) {
+    return j["recording"] == true && j["recorded"]["frames"] > then["recorded"]["frames"].get<int>() + 1;
+  })) << "it is still played and recorded";
   type_source("synthetic:sphere");
   EXPECT_TRUE(until([](const Json& j) { return j["errors"].empty() && j.contains("shown"); }));
 }

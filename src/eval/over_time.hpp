@@ -1,0 +1,70 @@
+#pragma once
+
+#include <array>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include <opencv2/core.hpp>
+#include <opencv2/core/affine.hpp>
+
+#include "attention/attention.hpp"
+#include "core/frame.hpp"
+
+namespace saccade {
+
+/// What one frame of a sequence contributes to the measures over time.
+struct WatchedFrame {
+  /// A fixation with the id of its object.
+  struct Point {
+    int id = 0;
+    int label = 0;            ///< of the object that it hits; 0 = none
+    cv::Point3d position_mm;  ///< camera frame; z = 0: no reading there
+  };
+  std::vector<Point> points;                      ///< in the order of attention
+  std::vector<int> labels;                        ///< of the objects in view, ascending
+  std::optional<cv::Affine3d> camera_to_world{};  ///< the true pose, mm
+  Intrinsics camera{};
+  cv::Size size{};
+};
+
+/// Labels with fewer pixels than this are not in view.
+constexpr int kFewestPixels = 150;
+
+/// Takes what is measured from a frame and the attention in it.
+[[nodiscard]] WatchedFrame watched_frame(const Frame& frame, const Attention& attention);
+
+/// How attention holds over a sequence.
+struct OverTime {
+  static constexpr std::array<int, 4> kFirst = {1, 3, 5, 10};
+  static constexpr int kLag = 30;  ///< frames of held_later
+  static constexpr double kSamePlace_mm = 80;
+
+  /// Of the kFirst[i] first fixations of a frame whose place is in view in the next frame (in kLag frames),
+  /// the share that this frame reports under the same id at that place; the mean over the frames. Places are
+  /// known by the true poses; none without them, or if the sequence is too short.
+  std::array<std::optional<double>, 4> held_next, held_later;
+
+  /// Share of the frames whose first fixation has the id of that of the frame before; none below two frames.
+  std::optional<double> first_stays;
+
+  /// Ids that were among the first ten in at least five frames, over the number of different places they
+  /// stood at; none without true poses.
+  std::optional<double> ids_per_place;
+
+  /// Agreement of ids with labels, which keep their identity: 2 TP / (fixations + objects in view), where TP
+  /// counts the fixations that hit their object under the best one-to-one assignment of ids to labels.
+  /// identity_f1 counts the fixations on labelled objects; identity_f1_all counts all, so those on other
+  /// things as errors. None without labels.
+  std::optional<double> identity_f1, identity_f1_all;
+  /// How often an object was hit under other ids than the last time.
+  int id_switches = 0;
+};
+
+[[nodiscard]] OverTime measure_over_time(const std::vector<WatchedFrame>& frames);
+
+/// The assignment of rows to columns, one to one, with the largest sum of gains (all >= 0). Gives the column
+/// of each row, -1 = none.
+[[nodiscard]] std::vector<int> best_assignment(const cv::Mat1d& gain);
+
+}  // namespace saccade

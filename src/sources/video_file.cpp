@@ -1,0 +1,191 @@
+#include "sources/video_file.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <new>
+#include <stdexcept>
+#include <vector>
+
+#include <fmt/format.h>
+
+extern "C" {
+#include <libavutil/error.h>
+#include <libavutil/log.h>
+}
+
+#include "core/error.hpp"
+#include "core/image_size.hpp"
+
+namespace saccade {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr const char* kHint = "the file may be truncated or not a video";
+constexpr const char* kBadChecksum = "the file is damaged here: its checksum does not fit";
+constexpr std::int64_t kMostLost = 1'000'000;  // positions; times of a damaged file may be anything
+
+thread_local VideoMessages* t_messages = nullptr;
+
+std::string reason_of(int code) {
+  std::array<char, AV_ERROR_MAX_STRING_SIZE> text{};
+  av_strerror(code, text.data(), text.size());
+  return text.data();
+}
+
+// Options of libavformat and libavcodec by name.
+class Options {
+ public:
+  ~Options() { av_dict_free(&options_); }
+  void set(const char* key, const std::string& value) { av_dict_set(&options_, key, value.c_str(), 0); }
+  AVDictionary** get() { return &options_; }
+
+ private:
+  AVDictionary* options_ = nullptr;
+};
+
+}  // namespace
+
+void collect_video_message(void*, int level, const char* format, va_list arguments) {
+  if (t_messages == nullptr || level > AV_LOG_ERROR || t_messages->error_) return;
+  std::array<char, 256> text{};
+  std::vsnprintf(text.data(), text.size(), format, arguments);
+  std::string line = text.data();
+  while (!line.empty() && (line.back() == '\n' || line.back() == ' ' || line.back() == '.')) line.pop_back();
+  t_messages->error_ = line;
+}
+
+VideoMessages::VideoMessages() {
+  t_messages = this;
+  av_log_set_callback(collect_video_message);
+}
+
+VideoMessages::~VideoMessages() { t_messages = nullptr; }
+
+VideoFile::VideoFile(const fs::path& path) : packet_(av_packet_alloc()), checksums_(path) {
+  if (!packet_) throw std::bad_alloc();
+  open(path);
+  const AVRational rate = av_guess_frame_rate(format_.get(), stream_, nullptr);
+  if (const double hz = av_q2d(rate); rate.den != 0 && std::isfinite(hz) && hz > 0) rate_hz_ = hz;
+}
+
+void VideoFile::open(const fs::path& path) {
+  VideoMessages messages;
+  const auto refuse = [&](int code) {
+    return unreadable(fmt::format("no video that can be read: {}", reason_of(code)), path.string(), kHint);
+  };
+  Options options;
+  options.set("format_whitelist", kVideoFormats);
+  options.set("protocol_whitelist", "file");
+  AVFormatContext* format = nullptr;
+  int code = avformat_open_input(&format, ("file:" + path.string()).c_str(), nullptr, options.get());
+  if (code == AVERROR(ENOMEM)) throw std::bad_alloc();
+  if (code < 0) throw refuse(code);
+  format_.reset(format);
+  // The codecs that look at the first images must not be led to allocate more, or to start threads.
+  std::vector<Options> of_streams(format->nb_streams);
+  std::vector<AVDictionary*> lists;
+  for (Options& each : of_streams) {
+    each.set("threads", "1");
+    each.set("max_pixels", fmt::format("{}", kMostPixels));
+    lists.push_back(*each.get());
+    *each.get() = nullptr;
+  }
+  code = lists.empty() ? AVERROR_STREAM_NOT_FOUND : avformat_find_stream_info(format, lists.data());
+  for (AVDictionary*& list : lists) av_dict_free(&list);
+  if (code == AVERROR(ENOMEM)) throw std::bad_alloc();
+  if (code < 0) throw refuse(code);
+  const int stream = av_find_best_stream(format, AVMEDIA_TYPE_VIDEO, -1, -1, nullptr, 0);
+  if (stream < 0) throw refuse(stream);
+  stream_ = format->streams[stream];
+  for (unsigned i = 0; i < format->nb_streams; ++i)
+    if (format->streams[i] != stream_) format->streams[i]->discard = AVDISCARD_ALL;
+  if (codec().width < 1 || codec().height < 1) throw refuse(AVERROR_INVALIDDATA);
+  try {
+    check_image_size(codec().width, codec().height);
+  } catch (const std::runtime_error& error) {
+    throw unreadable(error.what(), path.string(), "reduce the images");
+  }
+}
+
+// Reads on to the next packet of the stream; false at the end. Sets reason_ if a part of the file was
+// skipped.
+bool VideoFile::read_packet() {
+  VideoMessages messages;
+  for (;;) {
+    av_packet_unref(packet_.get());
+    const int code = av_read_frame(format_.get(), packet_.get());
+    if (code == AVERROR(ENOMEM)) throw std::bad_alloc();
+    if (const auto error = messages.take_error()) reason_ = "the file is damaged or truncated: " + *error;
+    if (code < 0 && code != AVERROR_EOF && reason_.empty())
+      reason_ = "the file is damaged: " + reason_of(code);
+    if (code < 0) return false;
+    if (packet_->stream_index == stream_->index) return true;
+  }
+}
+
+std::int64_t VideoFile::time_of(const AVPacket& packet) const {
+  const std::int64_t first = stream_->start_time == AV_NOPTS_VALUE ? 0 : stream_->start_time;
+  const std::int64_t time = packet.pts == AV_NOPTS_VALUE ? packet.dts : packet.pts;
+  if (time == AV_NOPTS_VALUE) return std::llround(static_cast<double>(count_) * 1e6 / rate_hz_);
+  return av_rescale_q(time - first, stream_->time_base, {1, 1'000'000});
+}
+
+// The number of images that would fit between the last one and `time_us`.
+std::int64_t VideoFile::missing_before(std::int64_t time_us) const {
+  const double periods = static_cast<double>(time_us - last_us_) * rate_hz_ / 1e6;
+  return last_us_ < 0 || !(periods > 1.5)
+             ? 0
+             : std::min(static_cast<std::int64_t>(std::llround(periods)) - 1, kMostLost);
+}
+
+// The end that the container announces; std::nullopt if it announces none, or that of other streams too.
+std::optional<std::int64_t> VideoFile::end_us() const {
+  if (stream_->duration != AV_NOPTS_VALUE && stream_->duration > 0)
+    return av_rescale_q(stream_->duration, stream_->time_base, {1, 1'000'000});
+  if (format_->nb_streams == 1 && format_->duration != AV_NOPTS_VALUE && format_->duration > 0)
+    return av_rescale(format_->duration, 1'000'000, AV_TIME_BASE);
+  return std::nullopt;
+}
+
+// Where a part of the file is damaged, images may be missing before the packet that was read.
+void VideoFile::look_for_gap() {
+  damaged_ = checksums_.damaged_at(packet_->pos);
+  const std::int64_t before = std::exchange(damaged_clusters_, checksums_.damaged_clusters());
+  if (damaged_clusters_ != before && reason_.empty()) reason_ = kBadChecksum;
+  if (!reason_.empty()) lost_ = missing_before(time_of(*packet_));
+}
+
+void VideoFile::look_for_lost_end() {
+  if (const auto end = end_us()) lost_ = missing_before(*end);
+  lost_ = std::max(lost_, std::min(stream_->nb_frames - count_, kMostLost));
+  if (lost_ == 0 && !reason_.empty()) lost_ = 1;
+  if (reason_.empty()) reason_ = "the file is truncated";
+}
+
+std::optional<VideoPacket> VideoFile::next() {
+  if (lost_ == 0 && !waiting_ && !at_end_) {
+    waiting_ = read_packet();
+    at_end_ = !waiting_;
+    if (waiting_) look_for_gap();
+    if (at_end_) look_for_lost_end();
+  }
+  if (lost_ > 0) {
+    --lost_;
+    ++count_;
+    last_us_ += std::llround(1e6 / rate_hz_);
+    return VideoPacket{nullptr, last_us_, "the image is lost: " + reason_};
+  }
+  if (!waiting_) return std::nullopt;
+  waiting_ = false;
+  reason_.clear();
+  VideoPacket result{packet_.get(), time_of(*packet_), ""};
+  if ((packet_->flags & AV_PKT_FLAG_CORRUPT) != 0) result.problem = "the image is cut";
+  if (damaged_) result.problem = kBadChecksum;
+  last_us_ = result.time_us;
+  ++count_;
+  return result;
+}
+
+}  // namespace saccade

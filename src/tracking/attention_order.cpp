@@ -1,0 +1,229 @@
+#include "tracking/attention_order.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "tracking/cell_projection.hpp"
+
+namespace saccade {
+namespace {
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+}  // namespace
+
+const std::vector<std::size_t>& AttentionOrder::choose(const View& view, int count,
+                                                       const ObjectShapes& shapes,
+                                                       ProtoObjects& proto_objects, ObjectMemory& objects,
+                                                       SurfaceMemory& surfaces) {
+  view_ = &view;
+  objects_ = &objects;
+  surfaces_ = &surfaces;
+  begin(shapes);
+  list_expected();
+  chosen_.clear();
+  while (static_cast<int>(chosen_.size()) < count) {
+    const auto winner = competition_.winner();
+    if (!winner) break;
+    TrackedObject* next = expected();
+    if (next == nullptr || competition_.value(*winner) > kMargin * strength(*next))
+      next = &stands_for(*winner, shapes, proto_objects);
+    if (!next->chosen && confirm(*next))
+      take(*next, proto_objects);
+    else
+      inhibit(*next);
+  }
+  rank_the_rest();
+  return chosen_;
+}
+
+void AttentionOrder::begin(const ObjectShapes& shapes) {
+  for (TrackedObject& object : objects_->slots()) {
+    const double age_s = static_cast<double>(view_->frame.timestamp_us - object.first_seen_us) * 1e-6;
+    object.appeared = object.appeared && age_s < kAppeared_s;
+  }
+  values_ = surfaces_->mean();
+  for (int i = 0; i < static_cast<int>(values_.size()); ++i) {
+    const TrackedObject* owner = objects_->of_owner(surfaces_->owner()[at(i)]);
+    const int segment = view_->segments.of_cell()[at(i)];
+    if (owner != nullptr ? owner->appeared : has_appeared(segment, shapes)) values_[at(i)] *= kAppeared;
+  }
+  competition_.begin(values_, view_->grid.rows(), view_->grid.cols());
+}
+
+bool AttentionOrder::has_appeared(int segment, const ObjectShapes& shapes) const {
+  if (segment == SurfaceSegments::kNone || view_->segments.is_supporting_plane(segment)) return false;
+  const ObjectShapes::Segment& facts = shapes.segment(segment);
+  return facts.appeared >= kAppearedCells && facts.appeared >= kAppearedPart * facts.cells;
+}
+
+// Objects in the order of the frame before; those that were not in it come last.
+void AttentionOrder::list_expected() {
+  const auto& slots = objects_->slots();
+  expected_.clear();
+  next_expected_ = 0;
+  for (std::size_t slot = 0; slot < slots.size(); ++slot)
+    if (slots[slot].alive && slots[slot].id != 0 && slots[slot].sight == Sight::visible)
+      expected_.push_back(slot);
+  std::sort(expected_.begin(), expected_.end(), [&](std::size_t a, std::size_t b) {
+    return slots[a].rank != slots[b].rank ? slots[a].rank < slots[b].rank : slots[a].id < slots[b].id;
+  });
+}
+
+// The next that has not been chosen and has some value left.
+TrackedObject* AttentionOrder::expected() {
+  for (; next_expected_ < expected_.size(); ++next_expected_) {
+    TrackedObject& object = objects_->slots()[expected_[next_expected_]];
+    if (!object.chosen && strength(object) > 0) return &object;
+  }
+  return nullptr;
+}
+
+// What is in view and was not chosen lines up behind. What is hidden keeps its rank for when it is seen
+// again.
+void AttentionOrder::rank_the_rest() {
+  int rank = static_cast<int>(chosen_.size());
+  for (const std::size_t slot : expected_)
+    if (TrackedObject& object = objects_->slots()[slot]; !object.chosen) object.rank = rank++;
+}
+
+// The object that the winning cell speaks for: its owner, or the one whose segment reaches there.
+TrackedObject& AttentionOrder::stands_for(int cell, const ObjectShapes& shapes, ProtoObjects& proto_objects) {
+  if (TrackedObject* owner = objects_->of_owner(surfaces_->owner()[at(cell)])) return *owner;
+  const int segment = view_->segments.of_cell()[at(cell)];
+  const bool whole = segment != SurfaceSegments::kNone && !view_->segments.is_supporting_plane(segment);
+  if (!whole || shapes.segment(segment).claimant < 0) return new_candidate(cell, shapes, proto_objects);
+  TrackedObject& object = objects_->slots()[at(shapes.segment(segment).claimant)];
+  for (int other : proto_objects.around(cell)) {
+    int& owner = surfaces_->owner()[at(other)];
+    if (owner != SurfaceMemory::kNobody) continue;
+    owner = objects_->owner_of(object);
+    object.cells.push_back(other);
+  }
+  return object;
+}
+
+TrackedObject& AttentionOrder::new_candidate(int cell, const ObjectShapes& shapes,
+                                             ProtoObjects& proto_objects) {
+  TrackedObject& object = objects_->add();
+  const int owner = objects_->owner_of(object), segment = view_->segments.of_cell()[at(cell)];
+  object.disc = segment == SurfaceSegments::kNone || view_->segments.is_supporting_plane(segment);
+  object.appeared = has_appeared(segment, shapes);
+  object.sight = Sight::visible;
+  object.first_seen_us = view_->frame.timestamp_us;
+  for (int other : proto_objects.around(cell)) {
+    int& own = surfaces_->owner()[at(other)];
+    if (own != SurfaceMemory::kNobody && !view_->first) continue;
+    own = owner;
+    object.cells.push_back(other);
+  }
+  object.anchor_sight = AnchorSight::visible;
+  object.anchor_cell = cell;
+  move_anchor(object, cell, proto_objects);
+  return object;
+}
+
+bool AttentionOrder::confirm(TrackedObject& object) {
+  if (object.id != 0) return true;
+  object.chosen = true;
+  if (++object.times_chosen < kConfirm && !view_->first) return false;
+  objects_->give_id(object);
+  return true;
+}
+
+void AttentionOrder::take(TrackedObject& object, const ProtoObjects& proto_objects) {
+  object.chosen = true;
+  object.strength = strength(object);
+  object.rank = static_cast<int>(chosen_.size());
+  object.last_reported_us = view_->frame.timestamp_us;
+  object.point_cell = settle_anchor(object, proto_objects);
+  inhibit(object);
+  competition_.discount_around(object.point_cell);
+  chosen_.push_back(at(objects_->owner_of(object) - 1));
+}
+
+// Of the margin, the cells that belong to another object's segment are spared: they are its own to lose.
+void AttentionOrder::inhibit(const TrackedObject& object) {
+  competition_.inhibit(object.cells, [&](int cell) {
+    if (view_->first) return false;
+    const TrackedObject* owner = objects_->of_owner(surfaces_->owner()[at(cell)]);
+    return owner != nullptr && owner != &object && !owner->disc;
+  });
+}
+
+AttentionOrder::Peak AttentionOrder::best_of(const TrackedObject& object) const {
+  Peak best;
+  for (int cell : object.cells)
+    if (competition_.value(cell) > best.value) best = {cell, competition_.value(cell)};
+  return best;
+}
+
+AttentionOrder::Peak AttentionOrder::best_at_anchor(const TrackedObject& object) const {
+  Peak best{object.anchor_cell, 0};
+  const int own = objects_->owner_of(object), cols = view_->grid.cols();
+  const int row = object.anchor_cell / cols, col = object.anchor_cell % cols;
+  for (int r = row - kPlaceCells; r <= row + kPlaceCells; ++r)
+    for (int c = col - kPlaceCells; c <= col + kPlaceCells; ++c) {
+      const int away = (r - row) * (r - row) + (c - col) * (c - col), cell = r * cols + c;
+      if (!in_grid(view_->grid, r, c) || away > kPlaceCells * kPlaceCells ||
+          surfaces_->owner()[at(cell)] != own)
+        continue;
+      if (competition_.value(cell) > best.value) best = {cell, competition_.value(cell)};
+    }
+  return best;
+}
+
+float AttentionOrder::strength(const TrackedObject& object) const {
+  return object.anchor_cell >= 0 ? best_at_anchor(object).value : best_of(object).value;
+}
+
+// Moves the anchor where it must; gives the cell where the object's point is in this frame.
+int AttentionOrder::settle_anchor(TrackedObject& object, const ProtoObjects& proto_objects) const {
+  const Peak best = best_of(object);
+  double patience = kPatience_s;
+  int other = best.cell;
+  if (object.anchor_sight == AnchorSight::visible) {
+    if (best.value <= kBetterPlace * object.strength) {
+      object.other_anchor_s = 0;
+      return object.anchor_cell;
+    }
+  } else {
+    if (const int near = stand_in(object); near >= 0) {
+      other = near;
+      if (object.anchor_sight == AnchorSight::off) patience = 0;
+    }
+    if (object.anchor_sight == AnchorSight::out_of_view) patience = 0;
+  }
+  object.other_anchor_s += view_->seconds;
+  if (object.other_anchor_s > patience) {
+    move_anchor(object, other, proto_objects);
+    object.anchor_cell = other;
+    object.other_anchor_s = 0;
+  }
+  return object.anchor_cell >= 0 ? object.anchor_cell : other;
+}
+
+// The cell of the object that is nearest to its hidden anchor; -1 if none is near.
+int AttentionOrder::stand_in(const TrackedObject& object) const {
+  const auto place = place_of(view_->grid, view_->from_world * object.anchor_mm);
+  if (!place) return -1;
+  double nearest = kStandInCells * kStandInCells;
+  int best = -1;
+  for (int cell : object.cells) {
+    const double down = cell / view_->grid.cols() - place->row,
+                 right = cell % view_->grid.cols() - place->col;
+    if (down * down + right * right >= nearest) continue;
+    nearest = down * down + right * right;
+    best = cell;
+  }
+  return best;
+}
+
+void AttentionOrder::move_anchor(TrackedObject& object, int cell, const ProtoObjects& proto_objects) const {
+  const cv::Point pixel = proto_objects.fixated_pixel(view_->saliency, cell);
+  const Frame& frame = view_->frame;
+  object.anchor_mm = view_->to_world *
+                     frame.intrinsics.point_mm(pixel.y, pixel.x, static_cast<double>(frame.depth_mm(pixel)));
+}
+
+}  // namespace saccade

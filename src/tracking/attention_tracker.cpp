@@ -1,0 +1,137 @@
+#include "tracking/attention_tracker.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "attention/proto.hpp"
+#include "attention/selector.hpp"
+#include "tracking/cell_projection.hpp"
+
+namespace saccade {
+
+AttentionTracker::AttentionTracker(int fixations, double min_confidence, const TrackingSettings& settings)
+    : fixations_(fixations),
+      min_confidence_(min_confidence),
+      objects_(settings.memory_s),
+      gaze_({settings.dwell_s, settings.return_after_s}) {
+  if (fixations < 1) throw std::invalid_argument("AttentionTracker: at least one fixation");
+}
+
+void AttentionTracker::attend(const Frame& frame, const cv::Mat1f& saliency, const FrameSurfaces& surfaces,
+                              const CameraStep& step, Attention& attention) {
+  const SurfaceGrid& grid = surfaces.grid();
+  const SurfaceSegments& segments = surfaces.segments();
+  begin_attention(saliency, frame.depth_mm, frame.intrinsics, attention);
+  if (step.cut) {
+    memory_.clear();
+    objects_.clear();
+    gaze_.clear();
+    last_us_.reset();
+  }
+  const bool first = !last_us_;
+  const double seconds = first ? 0 : static_cast<double>(frame.timestamp_us - *last_us_) * 1e-6;
+  last_us_ = frame.timestamp_us;
+
+  // Evidence over time
+  smooth_cells(saliency, scratch_, smooth_);
+  values_ = smooth_;
+  surfaces.weigh(values_);
+  memory_.carry(grid, step.to_previous);
+  memory_.learn(values_, seconds);
+
+  // Objects
+  const cv::Affine3d from_world = inverse(step.to_world);
+  objects_.correct(step.world_correction);
+  objects_.predict(grid, from_world);
+  shapes_.claim(grid, segments, step.to_world, seconds, objects_, memory_);
+
+  // Order
+  proto_objects_.begin(grid, segments, frame.depth_mm, frame.intrinsics);
+  const AttentionOrder::View view{frame, saliency, grid, segments, step.to_world, from_world, seconds, first};
+  const auto& chosen = order_.choose(view, fixations_, shapes_, proto_objects_, objects_, memory_);
+  objects_.learn(grid, step.to_world);
+  judge(surfaces, seconds, chosen);
+  report(view, chosen, attention);
+
+  attention.sequence = SequenceState{std::nullopt, step.cut, step.to_world};
+  look(frame.timestamp_us, reported_, *attention.sequence);
+  objects_.forget(frame.timestamp_us, memory_.owner());
+}
+
+// The mean goes over the same time as that of the evidence.
+void AttentionTracker::judge(const FrameSurfaces& surfaces, double seconds,
+                             const std::vector<std::size_t>& chosen) {
+  float strongest = 0;
+  const auto least = static_cast<float>(SurfaceMemory::share_of(seconds));
+  for (const std::size_t slot : chosen) {
+    TrackedObject& object = objects_.slots()[slot];
+    const float saliency = smooth_[static_cast<std::size_t>(object.point_cell)];
+    if (slot == chosen.front()) strongest = saliency;
+    const float relative = strongest > 0 ? saliency / strongest : 1;
+    const float share = std::max(1 / static_cast<float>(++object.times_judged), least);
+    object.mean_confidence +=
+        share * (surfaces.confidence_at(object.point_cell, relative) - object.mean_confidence);
+    if (object.times_judged == 1 || std::abs(object.mean_confidence - object.confidence) > kConfidenceMargin)
+      object.confidence = object.mean_confidence;
+  }
+}
+
+void AttentionTracker::report(const AttentionOrder::View& view, const std::vector<std::size_t>& chosen,
+                              Attention& attention) {
+  const Frame& frame = view.frame;
+  reported_.clear();
+  for (const std::size_t slot : chosen) {
+    const TrackedObject& object = objects_.slots()[slot];
+    if (static_cast<double>(object.confidence) < min_confidence_) continue;
+    reported_.push_back(slot);
+    const cv::Point pixel = point_of(view, object);
+    Fixation fixation = fixation_at(view.saliency, frame.depth_mm, frame.intrinsics, pixel.y, pixel.x);
+    const int rank = static_cast<int>(attention.fixations.size()) + 1;
+    fixation.proto_object = proto_objects_.paint(object.cells, attention.masks, rank);
+    fixation.confidence = object.confidence;
+    fixation.id = object.id;
+    fixation.age_frames = object.frames_seen;
+    fixation.world_mm = view.to_world * cv::Point3d(fixation.position_mm);
+    attention.fixations.push_back(fixation);
+  }
+  if (static_cast<int>(chosen.size()) < fixations_)
+    attention.ended_early = chosen.empty() ? kNothingSalient : kNothingLeft;
+  if (const auto doubtful = static_cast<int>(chosen.size() - reported_.size()); doubtful > 0)
+    add_doubtful(doubtful, min_confidence_, attention.ended_early);
+}
+
+// The pixel of the object's anchor: the nearest with its depth. Where it is hidden, one of the cell that
+// stands in.
+cv::Point AttentionTracker::point_of(const AttentionOrder::View& view, const TrackedObject& object) const {
+  const cv::Point3d anchor = view.from_world * object.anchor_mm;
+  const Intrinsics& camera = view.frame.intrinsics;
+  const cv::Mat1f& depth = view.frame.depth_mm;
+  cv::Point best(-1, -1);
+  if (object.anchor_sight == AnchorSight::visible) {
+    constexpr int kReach = 2 * SurfaceGrid::kCellPx;
+    const int row = cvRound(camera.fy * anchor.y / anchor.z + camera.cy),
+              col = cvRound(camera.fx * anchor.x / anchor.z + camera.cx);
+    int nearest = kReach * kReach + 1;
+    for (int r = std::max(0, row - kReach); r <= std::min(depth.rows - 1, row + kReach); ++r)
+      for (int c = std::max(0, col - kReach); c <= std::min(depth.cols - 1, col + kReach); ++c) {
+        const int away = (r - row) * (r - row) + (c - col) * (c - col);
+        if (away >= nearest || compare_depth(depth(r, c), anchor.z) != Seen::same) continue;
+        nearest = away;
+        best = {c, r};
+      }
+  }
+  return best.x >= 0 ? best : proto_objects_.fixated_pixel(view.saliency, object.point_cell);
+}
+
+void AttentionTracker::look(std::int64_t time_us, const std::vector<std::size_t>& chosen,
+                            SequenceState& sequence) {
+  targets_.clear();
+  for (const std::size_t slot : chosen) {
+    const TrackedObject& object = objects_.slots()[slot];
+    targets_.push_back({object.id, object.strength, object.appeared});
+  }
+  sequence.gaze = gaze_.look(time_us, targets_);
+}
+
+}  // namespace saccade

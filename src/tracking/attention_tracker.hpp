@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "attention/attention.hpp"
+#include "attention/frame_surfaces.hpp"
+#include "attention/proto_objects.hpp"
+#include "core/frame.hpp"
+#include "tracking/attention_order.hpp"
+#include "tracking/camera_motion.hpp"
+#include "tracking/gaze.hpp"
+#include "tracking/object_memory.hpp"
+#include "tracking/object_shapes.hpp"
+#include "tracking/surface_memory.hpp"
+#include "tracking/tracking_settings.hpp"
+
+namespace saccade {
+
+/// Attention over time: ProtoSelector with a memory. A pure function of the frames so far: no threads, no
+/// clocks. Keeps its memory between frames. Thread safety: one call at a time per object.
+class AttentionTracker {
+ public:
+  /// How far the mean over time of an object's confidence must be from the confidence reported for it to be
+  /// reported itself. So an object does not come and go because its confidence is near the limit.
+  static constexpr float kConfidenceMargin = 0.1F;
+
+  /// fixations: the greatest number per frame. min_confidence: 0..1, objects below it are remembered but not
+  /// reported. Throws std::invalid_argument unless there is at least one fixation.
+  AttentionTracker(int fixations, double min_confidence, const TrackingSettings& settings);
+
+  /// Chooses the attention points of the next frame. `surfaces` are the frame's, `step` is how the camera
+  /// has moved (CameraMotion). Times of frames must not decrease without a cut. `saliency` and
+  /// `attention` as in AttentionSelector::select(); besides, sets each fixation's id, age and place in the
+  /// world, and Attention::sequence.
+  void attend(const Frame& frame, const cv::Mat1f& saliency, const FrameSurfaces& surfaces,
+              const CameraStep& step, Attention& attention);
+
+  const ObjectMemory& objects() const { return objects_; }
+
+ private:
+  void judge(const FrameSurfaces& surfaces, double seconds, const std::vector<std::size_t>& chosen);
+  void report(const AttentionOrder::View& view, const std::vector<std::size_t>& chosen, Attention& attention);
+  cv::Point point_of(const AttentionOrder::View& view, const TrackedObject& object) const;
+  void look(std::int64_t time_us, const std::vector<std::size_t>& chosen, SequenceState& sequence);
+
+  int fixations_;
+  double min_confidence_;
+  std::optional<std::int64_t> last_us_;
+  std::vector<float> scratch_, smooth_, values_;
+  SurfaceMemory memory_;
+  ObjectMemory objects_;
+  ObjectShapes shapes_;
+  ProtoObjects proto_objects_;
+  AttentionOrder order_;
+  Gaze gaze_;
+  std::vector<std::size_t> reported_;  // slots, in order
+  std::vector<Gaze::Target> targets_;
+};
+
+}  // namespace saccade

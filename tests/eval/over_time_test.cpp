@@ -1,0 +1,118 @@
+#include "eval/over_time.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <random>
+
+#include <gtest/gtest.h>
+
+namespace saccade {
+namespace {
+
+const Intrinsics kCamera{525, 525, 319.5, 239.5, IntrinsicsOrigin::sensor};
+
+WatchedFrame frame_with(std::vector<WatchedFrame::Point> points, std::vector<int> labels = {}) {
+  WatchedFrame frame;
+  frame.points = std::move(points);
+  frame.labels = std::move(labels);
+  frame.camera_to_world = cv::Affine3d::Identity();
+  frame.camera = kCamera;
+  frame.size = {640, 480};
+  return frame;
+}
+
+WatchedFrame::Point at(int id, double x_mm, int label = 0) { return {id, label, {x_mm, 0, 1000}}; }
+
+TEST(OverTime, WhatStaysIsHeld) {
+  std::vector<WatchedFrame> frames(40, frame_with({at(1, 0), at(2, 200)}));
+  const OverTime result = measure_over_time(frames);
+  for (std::size_t i = 0; i < OverTime::kFirst.size(); ++i) {
+    EXPECT_EQ(result.held_next[i], 1);
+    EXPECT_EQ(result.held_later[i], 1);
+  }
+  EXPECT_EQ(result.first_stays, 1);
+  EXPECT_EQ(result.ids_per_place, 1);
+  EXPECT_FALSE(result.identity_f1);
+}
+
+TEST(OverTime, AnotherIdOrPlaceIsNotHeld) {
+  const WatchedFrame a = frame_with({at(1, 0), at(2, 200)}), other_id = frame_with({at(3, 0), at(2, 200)}),
+                     other_place = frame_with({at(1, 81), at(2, 200)});
+  EXPECT_EQ(measure_over_time({a, other_id}).held_next[1], 0.5);
+  EXPECT_EQ(measure_over_time({a, other_id}).first_stays, 0);
+  EXPECT_EQ(measure_over_time({a, other_place}).held_next[1], 0.5);
+  EXPECT_EQ(measure_over_time({a, other_place}).held_next[0], 0);
+  EXPECT_FALSE(measure_over_time({a, a}).held_later[0]) << "too short";
+}
+
+TEST(OverTime, PlacesAreInTheWorldAndOnlyThoseInViewCount) {
+  WatchedFrame before = frame_with({at(1, 0), at(2, 500)}), after = frame_with({at(1, -200)});
+  after.camera_to_world = cv::Affine3d(cv::Matx33d::eye(), cv::Vec3d(200, 0, 0));
+  EXPECT_EQ(measure_over_time({before, after}).held_next[2], 0.5) << "2 is in view still";
+  after.camera_to_world = cv::Affine3d(cv::Matx33d::eye(), cv::Vec3d(-300, 0, 0));
+  after.points = {at(1, 300)};
+  EXPECT_EQ(measure_over_time({before, after}).held_next[2], 1) << "2 is out of view";
+  after.camera_to_world.reset();
+  EXPECT_FALSE(measure_over_time({before, after}).held_next[2]) << "poses must be known";
+}
+
+TEST(OverTime, IdsPerPlaceCountsNewNumbersOfOldPlaces) {
+  std::vector<WatchedFrame> frames;
+  for (int k = 0; k < 20; ++k)
+    frames.push_back(frame_with({at(k < 10 ? 1 : 5, 0), at(2, 300), at(100 + k, 900)}));
+  EXPECT_EQ(measure_over_time(frames).ids_per_place, 1.5)
+      << "1, 5 and 2 at two places; the rest was too short";
+}
+
+TEST(OverTime, IdentityF1AndSwitches) {
+  std::vector<WatchedFrame> frames(10, frame_with({at(1, 0, 7), at(2, 300, 8)}, {7, 8}));
+  EXPECT_EQ(measure_over_time(frames).identity_f1, 1);
+  EXPECT_EQ(measure_over_time(frames).id_switches, 0);
+  for (std::size_t k = 5; k < 10; ++k) frames[k].points[0].id = 9;
+  EXPECT_DOUBLE_EQ(*measure_over_time(frames).identity_f1, 2.0 * 15 / 40)
+      << "1 or 9 is right in 5 of 10 frames";
+  EXPECT_EQ(measure_over_time(frames).id_switches, 1);
+  for (WatchedFrame& frame : frames) frame.points.push_back(at(3, 600, 0));
+  EXPECT_DOUBLE_EQ(*measure_over_time(frames).identity_f1, 2.0 * 15 / 40);
+  EXPECT_DOUBLE_EQ(*measure_over_time(frames).identity_f1_all, 2.0 * 15 / 50)
+      << "a point on nothing is wrong";
+  for (WatchedFrame& frame : frames) frame.points.clear();
+  EXPECT_EQ(measure_over_time(frames).identity_f1, 0);
+}
+
+// All permutations of the columns.
+double slow_best(const cv::Mat1d& gain) {
+  std::vector<int> columns(static_cast<std::size_t>(std::max(gain.rows, gain.cols)));
+  std::iota(columns.begin(), columns.end(), 0);
+  double best = 0;
+  do {
+    double sum = 0;
+    for (int row = 0; row < gain.rows; ++row)
+      if (const int col = columns[static_cast<std::size_t>(row)]; col < gain.cols) sum += gain(row, col);
+    best = std::max(best, sum);
+  } while (std::next_permutation(columns.begin(), columns.end()));
+  return best;
+}
+
+TEST(BestAssignment, IsTheBestOfAll) {
+  std::mt19937 random(5);
+  for (int trial = 0; trial < 60; ++trial) {
+    const int rows = 1 + trial % 6, cols = 1 + trial / 6 % 6;
+    cv::Mat1d gain(rows, cols);
+    for (double& value : gain) value = static_cast<double>(random() % 20);
+    const std::vector<int> column = best_assignment(gain);
+    double sum = 0;
+    std::vector<int> used;
+    for (int row = 0; row < rows; ++row)
+      if (const int col = column[static_cast<std::size_t>(row)]; col >= 0) {
+        EXPECT_EQ(std::count(used.begin(), used.end(), col), 0);
+        used.push_back(col);
+        sum += gain(row, col);
+      }
+    EXPECT_EQ(static_cast<int>(used.size()), std::min(rows, cols));
+    EXPECT_EQ(sum, slow_best(gain)) << gain;
+  }
+}
+
+}  // namespace
+}  // namespace saccade

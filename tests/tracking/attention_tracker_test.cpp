@@ -1,0 +1,217 @@
+#include "tracking/attention_tracker.hpp"
+
+#include <map>
+#include <optional>
+#include <set>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "attention/proto.hpp"
+#include "tracking/frame_follower.hpp"
+#include "watched_scene.hpp"
+
+namespace saccade {
+namespace {
+
+using Options = WatchedScene::Options;
+
+class AttentionTrackerTest : public ::testing::Test {
+ protected:
+  AttentionTrackerTest() { cv::setNumThreads(1); }
+
+  void watch(const Options& options, int fixations = 20, const TrackingSettings& settings = {}) {
+    scene_.emplace(options);
+    tracker_.emplace(fixations, 0, settings);
+    follower_.emplace();
+  }
+
+  // The attention of frame k.
+  const Attention& see(std::int64_t k, double jitter = 0.3, float step = 0.1F) {
+    frame_ = &scene_->frame(k);
+    follower_->start(*frame_);
+    follower_->wait();
+    tracker_->attend(*frame_, scene_->saliency(step, jitter), follower_->surfaces(), follower_->step(),
+                     attention_);
+    return attention_;
+  }
+
+  int label_of(const Fixation& fixation) const { return frame_->truth.labels(fixation.row, fixation.col); }
+
+  // Id of the fixation on each label in the frame seen last.
+  std::map<int, int> ids() const {
+    std::map<int, int> ids;
+    for (const Fixation& fixation : attention_.fixations)
+      if (const int label = label_of(fixation); label != 0) ids.emplace(label, fixation.id);
+    return ids;
+  }
+
+  std::optional<WatchedScene> scene_;
+  std::optional<AttentionTracker> tracker_;
+  std::optional<FrameFollower> follower_;
+  const Frame* frame_ = nullptr;
+  Attention attention_;
+};
+
+// All but what only a sequence has.
+void expect_same_fixations(const Attention& a, const Attention& b) {
+  ASSERT_EQ(a.fixations.size(), b.fixations.size());
+  for (std::size_t i = 0; i < a.fixations.size(); ++i) {
+    EXPECT_EQ(a.fixations[i].row, b.fixations[i].row) << i;
+    EXPECT_EQ(a.fixations[i].col, b.fixations[i].col) << i;
+    EXPECT_EQ(a.fixations[i].confidence, b.fixations[i].confidence) << i;
+    EXPECT_EQ(a.fixations[i].saliency, b.fixations[i].saliency) << i;
+    EXPECT_EQ(a.fixations[i].proto_object.pixels, b.fixations[i].proto_object.pixels) << i;
+    EXPECT_EQ(a.fixations[i].proto_object.centroid_mm, b.fixations[i].proto_object.centroid_mm) << i;
+    EXPECT_EQ(a.fixations[i].proto_object.extent_mm, b.fixations[i].proto_object.extent_mm) << i;
+  }
+  EXPECT_EQ(cv::countNonZero(a.masks != b.masks), 0);
+  EXPECT_EQ(a.ended_early, b.ended_early);
+}
+
+TEST_F(AttentionTrackerTest, TheFirstFrameIsThatOfTheSelector) {
+  for (const char* scene : {"table", "room"})
+    for (const int fixations : {5, 40}) {
+      watch({.scene = scene}, fixations);
+      const Attention& first = see(0);
+      Attention alone;
+      ProtoSelector(fixations).select(scene_->saliency(0.1F, 0.3), frame_->depth_mm, frame_->intrinsics,
+                                      alone);
+      expect_same_fixations(first, alone);
+      ASSERT_TRUE(first.sequence);
+      EXPECT_FALSE(first.sequence->cut);
+      EXPECT_EQ(first.sequence->gaze, first.fixations.front().id);
+      for (std::size_t i = 0; i < first.fixations.size(); ++i)
+        EXPECT_EQ(first.fixations[i].id, static_cast<int>(i) + 1);
+    }
+}
+
+TEST_F(AttentionTrackerTest, ObjectsKeepIdsAndRanksInNoise) {
+  watch({.camera = scene::CameraPath::walk}, 5);
+  std::vector<int> first;
+  for (const Fixation& fixation : see(0).fixations) first.push_back(fixation.id);
+  for (int k = 1; k < 30; ++k) {
+    std::vector<int> now;
+    for (const Fixation& fixation : see(k).fixations) {
+      now.push_back(fixation.id);
+      EXPECT_EQ(fixation.age_frames, k + 1);
+    }
+    EXPECT_EQ(now, first) << k;
+  }
+}
+
+TEST_F(AttentionTrackerTest, PlacesStayWhereTheyAreInTheWorld) {
+  watch({.camera = scene::CameraPath::walk}, 5);
+  std::map<int, cv::Point3d> places;
+  for (int k = 0; k < 30; ++k)
+    for (const Fixation& fixation : see(k).fixations) {
+      const cv::Point3d place = *frame_->truth.camera_to_world * cv::Point3d(fixation.position_mm);
+      const auto [at, fresh] = places.emplace(fixation.id, place);
+      EXPECT_LT(cv::norm(place - at->second), 25) << "id " << fixation.id << " frame " << k;
+    }
+}
+
+TEST_F(AttentionTrackerTest, WhatIsTakenAwayIsGivenUpWithinThreeFrames) {
+  watch({.event = scene::EventKind::take});
+  for (int k = 0; k < 30; ++k) see(k);
+  const int id = ids().at(scene_->label());
+  const Fixation* fixation = nullptr;
+  for (const Fixation& f : attention_.fixations)
+    if (f.id == id) fixation = &f;
+  const cv::Point3f place = fixation->position_mm;
+  for (int k = 30; k < 60; ++k) {
+    see(k);
+    if (k < 32) continue;
+    for (const Fixation& f : attention_.fixations) EXPECT_NE(f.id, id) << k;
+    for (const TrackedObject& object : tracker_->objects().slots())
+      EXPECT_FALSE(object.alive && object.id == id) << k;
+    EXPECT_NE(attention_.sequence->gaze, id);
+  }
+  EXPECT_GT(place.z, 0);
+}
+
+TEST_F(AttentionTrackerTest, WhatIsPutInIsReportedWithinFiveFramesAndLookedAtWithinASecond) {
+  // As many points as there are objects before, so that it must displace one.
+  watch({.event = scene::EventKind::add});
+  watch({.event = scene::EventKind::add}, scene_->objects() - 1);
+  for (int k = 0; k < 30; ++k) see(k);
+  EXPECT_FALSE(ids().contains(scene_->label()));
+  std::optional<int> reported, looked_at;
+  for (int k = 30; k < 60; ++k) {
+    see(k);
+    const auto now = ids();
+    const auto at = now.find(scene_->label());
+    if (at == now.end()) continue;
+    if (!reported) reported = k;
+    if (!looked_at && attention_.sequence->gaze == at->second) looked_at = k;
+  }
+  ASSERT_TRUE(reported && looked_at);
+  EXPECT_LT(*reported, 35);
+  EXPECT_LT(*looked_at, 60);
+}
+
+TEST_F(AttentionTrackerTest, WhatIsMovedKeepsItsId) {
+  for (const std::uint64_t seed : {3u, 4u, 5u}) {
+    watch({.seed = seed, .event = scene::EventKind::move});
+    for (int k = 0; k < 30; ++k) see(k);
+    const int id = ids().at(scene_->label());
+    for (int k = 30; k < 75; ++k) see(k);
+    EXPECT_EQ(ids().at(scene_->label()), id) << "seed " << seed;
+  }
+}
+
+TEST_F(AttentionTrackerTest, WhatIsHiddenGetsItsIdBack) {
+  watch({.event = scene::EventKind::hide});
+  for (int k = 0; k < 30; ++k) see(k);
+  const int id = ids().at(scene_->label());
+  for (int k = 30; k < 60; ++k) see(k);
+  EXPECT_FALSE(ids().contains(scene_->label())) << "the board is before it";
+  for (int k = 60; k < 110; ++k) see(k);
+  EXPECT_EQ(ids().at(scene_->label()), id);
+}
+
+TEST_F(AttentionTrackerTest, OutOfViewAndBackObjectsHaveTheirIds) {
+  watch({.scene = "room", .camera = scene::CameraPath::pan}, 30);
+  see(0);
+  const auto before = ids();
+  for (int k = 2; k <= 240; k += 2) see(k);
+  const auto after = ids();
+  int kept = 0, seen = 0;
+  for (const auto& [label, id] : before) {
+    if (!after.contains(label)) continue;
+    ++seen;
+    kept += after.at(label) == id;
+  }
+  EXPECT_GE(seen, 6);
+  EXPECT_GE(kept, seen - 2) << "neighbours that were seen in part may have exchanged theirs";
+}
+
+TEST_F(AttentionTrackerTest, AfterACutIdsGoOnCounting) {
+  watch({});
+  see(0);
+  std::set<int> before;
+  for (const Fixation& fixation : attention_.fixations) before.insert(fixation.id);
+  see(5);
+  scene_.emplace(Options{.scene = "room"});
+  see(6);
+  EXPECT_TRUE(attention_.sequence->cut);
+  for (const Fixation& fixation : attention_.fixations) {
+    EXPECT_FALSE(before.contains(fixation.id));
+    EXPECT_EQ(fixation.age_frames, 1);
+  }
+}
+
+TEST_F(AttentionTrackerTest, OrderChangesByAMarginOnly) {
+  watch({.noise = false}, 3);
+  see(0, 0, 0.1F);
+  const int first = attention_.fixations.front().id;
+  for (int k = 1; k < 60; ++k)
+    EXPECT_EQ(see(k, 0, -0.05F).fixations.front().id, first) << "a little weaker than others";
+  for (int k = 60; k < 150; ++k) see(k, 0, -0.9F / static_cast<float>(scene_->objects()));
+  EXPECT_NE(attention_.fixations.front().id, first) << "much weaker";
+}
+
+TEST(AttentionTracker, NeedsAFixation) { EXPECT_THROW(AttentionTracker(0, 0, {}), std::invalid_argument); }
+
+}  // namespace
+}  // namespace saccade

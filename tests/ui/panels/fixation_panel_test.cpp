@@ -1,0 +1,68 @@
+// The table of fixations, drawn without a display.
+#include "ui/panels/fixation_panel.hpp"
+
+#include <gmock/gmock.h>
+
+#include "panel_test.hpp"
+#include "ui/panels/panel_text.hpp"
+
+namespace saccade {
+namespace {
+
+class FixationPanelTest : public ViewerPanelsTest {
+ protected:
+  FixationPanelTest() { show_result(); }
+  // A click on the row of fixation `rank`.
+  void click_row(const char* place) { click(place, draw_, 0.5F); }
+  FixationPanel panel_;
+  const Draw draw_ = [this] { panel_.draw(view_); };
+};
+
+TEST_F(FixationPanelTest, AClickLocksAFixationAndAnotherFreesIt) {
+  click_row("fixation 2");
+  ASSERT_TRUE(view_.lock.locked());
+  view_.locked = view_.lock.find(view_.result->a.result.attention.fixations);
+  EXPECT_EQ(view_.locked, 1);
+  for (int i = 0; i < 40; ++i) frames_.frame(draw_);  // else it is a double click
+  click_row("fixation 2");
+  EXPECT_FALSE(view_.lock.locked());
+}
+
+TEST_F(FixationPanelTest, ADoubleClickCentres) {
+  click_row("fixation 1");
+  click_row("fixation 1");
+  ASSERT_TRUE(view_.centre_on.has_value());
+  EXPECT_EQ(view_.centre_on->col, 200);
+}
+
+TEST_F(FixationPanelTest, HoveringPointsOutTheMark) {
+  settled(draw_);
+  const auto [left, top, right, bottom] = view_.places.at("fixation 2");
+  ImGui::GetIO().MousePos = {(left + right) / 2, (top + bottom) / 2};
+  settled(draw_);
+  EXPECT_EQ(view_.hovered_row, 1);
+}
+
+TEST_F(FixationPanelTest, FitsIntoTheSideBarAndSaysWhenThereIsNothing) {
+  expect_fits(draw_);
+  view_.result = nullptr;
+  settled(draw_);
+  ImVec2 low, high;
+  EXPECT_TRUE(ImGuiFrames::box_of(ImGui::GetColorU32(tone_colour(Tone::quiet)), low, high));
+}
+
+TEST(FixationText, HasALineForEach) {
+  Fixation fixation;
+  fixation.row = 3;
+  fixation.col = 4;
+  fixation.saliency = 0.5F;
+  fixation.confidence = 0.875F;
+  fixation.position_mm = {1, -2, 1000};
+  fixation.proto_object.extent_mm = {10, 30, 20};
+  EXPECT_EQ(fixation_text({fixation}),
+            "rank\trow\tcol\tx_mm\ty_mm\tz_mm\tsize_mm\tsaliency\tconfidence\n"
+            "1\t3\t4\t1.0\t-2.0\t1000.0\t30.0\t0.5\t0.875\n");
+}
+
+}  // namespace
+}  // namespace saccade

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <array>
+#include <functional>
+#include <string>
+#include <utility>
+
+#include "ui/panels/view_context.hpp"
+#include "ui/session/folder_listing.hpp"
+
+namespace saccade {
+
+/// Chooses a source: a path, a connected sensor, a recent one, an example, or one in a folder.
+class OpenDialog {
+ public:
+  /// `wake` is called on any thread when there is something new to draw.
+  explicit OpenDialog(std::function<void()> wake) : lister_(std::move(wake)) {}
+  void show();
+  void draw(ViewContext& view);
+
+ private:
+  void draw_places(ViewContext& view, std::string& chosen);
+  void draw_folder(ViewContext& view, std::string& chosen);
+
+  bool opening_ = false, focus_ = false;
+  std::array<char, 4096> text_{};  // as long as a path may be
+  FolderLister lister_;
+  FolderContents contents_;
+};
+
+}  // namespace saccade
