@@ -1,4 +1,4 @@
-# cpack -G DEB: one package with the program, the driver modules and the C++ library, the Python module.
+# cpack -G DEB: one package with the program, the driver modules and the C++ library.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME saccade)
 set(CPACK_PACKAGE_VENDOR "The Saccade authors")
@@ -27,11 +27,6 @@ if(SACCADE_VIEWER)
 libxrender1, libxxf86vm1, fonts-dejavu-core")
 endif()
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "gstreamer1.0-plugins-base, gstreamer1.0-plugins-good, gstreamer1.0-libav")
-if(SACCADE_PYTHON)
-  math(EXPR next_python "${Python_VERSION_MINOR} + 1")
-  string(APPEND CPACK_DEBIAN_PACKAGE_RECOMMENDS
-    ", python3 (>= 3.${Python_VERSION_MINOR}), python3 (<< 3.${next_python}), python3-numpy")
-endif()
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS "libopencv-dev, libeigen3-dev, libfmt-dev, libhwy-dev, libturbojpeg0-dev, \
 libspng-dev, libdeflate-dev, libavformat-dev, libavcodec-dev, \
 libavutil-dev, libhdf5-dev, libopenni2-dev")

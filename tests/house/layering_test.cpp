@@ -26,7 +26,7 @@ const Floors kHouse = {
     {"src/pipeline", "drivers/modules"},
     {"src/output"},
     {"src/settings"},
-    {"src/eval", "src/python", "ui/session"},
+    {"src/eval", "ui/session"},
     {"ui/panels", "ui/drawing"},
     {"ui/window"},
     {"src/app"},
