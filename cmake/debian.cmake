@@ -19,14 +19,13 @@ computes how mirror-symmetric the surface around each pixel is.
 The package holds the program (viewer, headless processing, recording,
 evaluation), driver modules for OpenNI2 and libraries for programs of
 your own.")
-# dpkg-shlibdeps finds what is linked. The rest is what the window's libraries open while they run (OpenGL, X11), the
-# font, and the decoders of depth videos.
+# dpkg-shlibdeps finds what is linked. The rest is what the window's libraries open while they run (OpenGL, X11), and the
+# font.
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 if(SACCADE_VIEWER)
   set(CPACK_DEBIAN_PACKAGE_DEPENDS "libgl1, libegl1, libx11-xcb1, libxcursor1, libxi6, libxinerama1, libxrandr2, \
 libxrender1, libxxf86vm1, fonts-dejavu-core")
 endif()
-set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "gstreamer1.0-plugins-base, gstreamer1.0-plugins-good, gstreamer1.0-libav")
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS "libopencv-dev, libeigen3-dev, libfmt-dev, libhwy-dev, libturbojpeg0-dev, \
 libspng-dev, libdeflate-dev, libavformat-dev, libavcodec-dev, \
 libavutil-dev, libhdf5-dev, libopenni2-dev")

@@ -15,7 +15,7 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/package/SaccadeConfigVers
 install(FILES ${PROJECT_BINARY_DIR}/package/SaccadeConfig.cmake ${PROJECT_BINARY_DIR}/package/SaccadeConfigVersion.cmake
         DESTINATION ${package_folder})
 
-# The public headers; tests/package compiles each of them alone. Inside the project they include one another by the name
+# The public headers, with all that they include; tests/package compiles them. Inside the project they include one another by the name
 # of the room, "core/frame.hpp"; in an installed header that becomes "saccade/core/frame.hpp", so that a user's own
 # folder core/ is never in the way.
 set(public_headers

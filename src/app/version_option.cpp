@@ -20,16 +20,16 @@ nlohmann::ordered_json version_info() {
     if (!version.empty()) libraries[std::string(name)] = version;
   for (const auto& [name, built] : kParts) parts[std::string(name)] = built;
   return {{"program", "saccade"},
-                                {"version", kVersion},
-                                {"formats",
-                                 {{"settings", kSettingsFormat},
-                                  {"manifest", kManifestFormat},
-                                  {"fixations", kFixationsFormat},
-                                  {"evaluation", kEvaluationFormat}}},
-                                {"compiler", kCompiler},
-                                {"build_type", kBuildType},
-                                {"parts", parts},
-                                {"libraries", libraries}};
+          {"version", kVersion},
+          {"formats",
+           {{"settings", kSettingsFormat},
+            {"manifest", kManifestFormat},
+            {"fixations", kFixationsFormat},
+            {"evaluation", kEvaluationFormat}}},
+          {"compiler", kCompiler},
+          {"build_type", kBuildType},
+          {"parts", parts},
+          {"libraries", libraries}};
 }
 
 void add_version_option(CLI::App& app, std::function<void()>& action) {

@@ -2,8 +2,8 @@
 
 #include <functional>
 
-#include <nlohmann/json_fwd.hpp>
 #include <CLI/CLI.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 namespace saccade {
 
