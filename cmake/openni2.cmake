@@ -48,8 +48,8 @@ function(saccade_driver_module name)
   add_dependencies(saccade_driver_modules ${name})
 endfunction()
 
-# saccade_use_sensors(TARGET [INSTALLED]); INSTALLED: the program is installed into CMAKE_INSTALL_BINDIR and built into
-# PROJECT_BINARY_DIR.
+# saccade_use_sensors(TARGET [INSTALLED]); INSTALLED: the program has been installed by install(TARGETS) into
+# CMAKE_INSTALL_BINDIR, and is built into PROJECT_BINARY_DIR.
 function(saccade_use_sensors target)
   cmake_parse_arguments(arg "INSTALLED" "" "" ${ARGN})
   target_link_libraries(${target} PRIVATE OpenNI2::OpenNI2)
@@ -61,9 +61,11 @@ function(saccade_use_sensors target)
     set_target_properties(${target} PROPERTIES BUILD_RPATH ${SACCADE_REDIST})
     return()
   endif()
-  # Where the RUNPATH of the build tree is shorter than the installed one, CMake ends it with an empty entry, and there
-  # the loader looks in the working directory. So that of the build tree has the installed one as well.
+  # A RUNPATH that CMake is to replace when it installs gets an empty last entry, and there the loader looks in the
+  # working directory. So the build tree has that of both places, and it is cut when the program has been installed.
   file(RELATIVE_PATH installed ${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_FULL_LIBDIR}/saccade/openni2)
   set_target_properties(${target} PROPERTIES
-    BUILD_RPATH "$ORIGIN/openni2;$ORIGIN/${installed}" INSTALL_RPATH "$ORIGIN/${installed}")
+    BUILD_WITH_INSTALL_RPATH ON INSTALL_RPATH "$ORIGIN/openni2;$ORIGIN/${installed}")
+  set(file "\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_BINDIR}/$<TARGET_FILE_NAME:${target}>")
+  install(CODE "file(RPATH_SET FILE \"${file}\" NEW_RPATH \"$ORIGIN/${installed}\")")
 endfunction()

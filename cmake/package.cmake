@@ -23,13 +23,11 @@ set(public_headers
   core/sensor_settings.hpp core/setting.hpp core/stage_times.hpp core/version.hpp core/worker_pool.hpp
   saliency/params.hpp saliency/probe.hpp saliency/reference.hpp saliency/symmetry3d.hpp
   models/model.hpp models/model_settings.hpp
-  attention/attention.hpp attention/attention_settings.hpp attention/border_ownership.hpp attention/cell_competition.hpp
-  attention/confidence.hpp attention/frame_surfaces.hpp attention/plane_search.hpp attention/proto_objects.hpp
-  attention/surface_grid.hpp attention/surface_segments.hpp
-  tracking/attention_order.hpp tracking/attention_tracker.hpp tracking/camera_motion.hpp tracking/frame_follower.hpp
-  tracking/gaze.hpp tracking/object_memory.hpp tracking/object_shapes.hpp tracking/surface_memory.hpp
-  tracking/tracked_object.hpp tracking/tracking_settings.hpp
   sources/open_source.hpp)
+# AttentionTracker holds most of these rooms' objects.
+file(GLOB tracker_headers RELATIVE ${PROJECT_SOURCE_DIR}/src CONFIGURE_DEPENDS
+  ${PROJECT_SOURCE_DIR}/src/attention/*.hpp ${PROJECT_SOURCE_DIR}/src/tracking/*.hpp)
+list(APPEND public_headers ${tracker_headers})
 foreach(header IN LISTS public_headers)
   cmake_path(GET header PARENT_PATH room)
   set(file ${PROJECT_SOURCE_DIR}/src/${header})
