@@ -8,6 +8,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "core/error.hpp"
+#include "core/text.hpp"
 #include "drivers/openni2/openni2_modes.hpp"
 
 namespace saccade {
@@ -24,7 +25,7 @@ Outcome check_memory(const openni::VideoFrameRef& frame, cv::Size size, int byte
   const std::int64_t needed = stride * size.height;
   if (frame.getData() == nullptr || stride < std::int64_t{size.width} * bytes_per_pixel ||
       frame.getDataSize() < needed)
-    return Outcome::failure(fmt::format("it has {} bytes, not {}", frame.getDataSize(),
+    return Outcome::failure(fmt::format("it has {}, not {}", counted(frame.getDataSize(), "byte"),
                                         std::max(needed, std::int64_t{size.area()} * bytes_per_pixel)));
   return Outcome::success();
 }

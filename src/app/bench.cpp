@@ -12,6 +12,7 @@
 
 #include "app/standard_output.hpp"
 #include "core/error.hpp"
+#include "core/text.hpp"
 #include "pipeline/processor.hpp"
 #include "pipeline/stage_statistics.hpp"
 #include "saliency/reference.hpp"
@@ -125,10 +126,10 @@ void bench(const Settings& settings, double seconds) {
   check_levels(largest, settings);
   if (!settings.json)
     print_text(
-        fmt::format("{}, k = {}, levels {}..{}, {} worker{}, {}\n"
+        fmt::format("{}, k = {}, levels {}..{}, {}, {}\n"
                     "     size  valid %    map ms  points ms    p95 ms  frames/s   sustains\n",
-                    settings.model, settings.kernel, settings.first_level, settings.last_level, workers,
-                    workers == 1 ? "" : "s", instructions));
+                    settings.model, settings.kernel, settings.first_level, settings.last_level,
+                    counted(workers, "worker"), instructions));
   nlohmann::ordered_json json = {{"model", settings.model},
                                  {"kernel", settings.kernel},
                                  {"workers", workers},

@@ -6,6 +6,7 @@
 #include <spdlog/spdlog.h>
 
 #include "core/error.hpp"
+#include "core/text.hpp"
 #include "models/model.hpp"
 
 namespace saccade {
@@ -29,8 +30,8 @@ void report_state(const SourceState& state) {
   switch (state.connection) {
     case SourceState::Connection::streaming:
       if (state.losses > 0)
-        spdlog::info("{} reconnected; {} dropout{}, {:.1f} s in total", state.text, state.losses,
-                     state.losses == 1 ? "" : "s", state.away_s);
+        spdlog::info("{} reconnected; {}, {:.1f} s in total", state.text, counted(state.losses, "dropout"),
+                     state.away_s);
       for (const std::string& note : state.notes) spdlog::warn("{}: {}", state.text, note);
       return;
     case SourceState::Connection::waiting:

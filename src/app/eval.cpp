@@ -18,6 +18,7 @@
 #include "core/file.hpp"
 #include "core/folder_lock.hpp"
 #include "core/png.hpp"
+#include "core/text.hpp"
 #include "eval/contact_sheet.hpp"
 #include "eval/figure.hpp"
 #include "eval/page.hpp"
@@ -56,8 +57,9 @@ EvalPlan make_plan(const EvalArguments& arguments, const Settings& settings, con
   parse_lists(plan, arguments.models, arguments.kernels, arguments.selectors);
   parse_shard(plan, arguments.shard);
   if (plan.shard > plan.positions)
-    throw usage_error(fmt::format("shard {} holds no frame", plan.shard), source.uri,
-                      fmt::format("{} frames are selected: use as many shards or fewer", plan.positions));
+    throw usage_error(
+        fmt::format("shard {} holds no frame", plan.shard), source.uri,
+        fmt::format("{} selected: use as many shards or fewer", counted(plan.positions, "frame")));
   for (Settings of_model = plan.settings; const std::string& model : plan.models) {
     of_model.model = model;
     check_model(of_model, source.size);
@@ -68,9 +70,10 @@ EvalPlan make_plan(const EvalArguments& arguments, const Settings& settings, con
 void check_any_evaluated(const StoredResults& results) {
   for (const ImageResult& image : results.images)
     if (!image.left_out) return;
-  throw unreadable(fmt::format("none of {} images could be evaluated; the first: {}", results.images.size(),
-                               results.images.empty() ? "-" : results.images.front().left_out.value()),
-                   results.plan.dataset, "each needs a label image of the size of its depth");
+  throw unreadable(
+      fmt::format("none of {} could be evaluated; the first: {}", counted(results.images.size(), "image"),
+                  results.images.empty() ? "-" : results.images.front().left_out.value()),
+      results.plan.dataset, "each needs a label image of the size of its depth");
 }
 
 nlohmann::ordered_json summary_json(const StoredResults& results, const Statistics& statistics,
@@ -109,8 +112,8 @@ void write_report(const StoredResults& results, FrameSource* source, const fs::p
   if (settings.json)
     print_json(summary_json(results, statistics, out.string()));
   else if (!settings.quiet)
-    print_text(fmt::format("{}{} image{}; see {}\n", report_text(plan, statistics), statistics.images,
-                           statistics.images == 1 ? "" : "s", (out / "index.html").string()));
+    print_text(fmt::format("{}{}; see {}\n", report_text(plan, statistics),
+                           counted(statistics.images, "image"), (out / "index.html").string()));
 }
 
 // The data set that results name, for the examples; nullptr, with a warning, if it cannot be opened. The
@@ -144,7 +147,7 @@ void eval(const EvalArguments& arguments, const Settings& settings) {
   const Interrupt::Handler handler(interrupt, {});
   StoredResults results = resume_results(out, plan);
   const auto before = static_cast<std::int64_t>(results.images.size());
-  if (before > 0) spdlog::info("{}: {} images are evaluated already", out.string(), before);
+  if (before > 0) spdlog::info("{}: {} evaluated already", out.string(), counted(before, "image"));
   if (!results.complete) {
     LineFile file(out / kResultFile, LineFile::Existing::keep);
     const std::int64_t of_shard = (plan.positions - plan.shard) / plan.shards + 1;

@@ -11,6 +11,37 @@
 #include "eval/plan.hpp"
 
 namespace saccade {
+namespace {
+
+// The options that are not settings. Those that would have no effect beside another one are refused.
+void add_arguments(CLI::App& command, EvalArguments& a) {
+  const auto add = [&](const char* name, auto& value, const char* type, const char* help) {
+    return command.add_option(name, value, help)->type_name(type);
+  };
+  auto* dataset = add_source_option(command, "DATASET", a.dataset,
+                                    "a source whose images have labels; see the end of this help");
+  add("--out", a.out, "DIR", "folder to write to; made if it does not exist")->required();
+  auto* models = add("--models", a.models, "LIST", "models to compare [that of the settings]");
+  auto* kernels =
+      add("--kernels", a.kernels, "LIST", "kernel sizes to compare, in px [that of the settings]");
+  auto* selectors = add("--selectors", a.selectors, "LIST", "selectors to compare [that of the settings]");
+  auto* points =
+      add("--points", a.points, "N", "attention points per image, 1..1000 [30; with --over-time 10]")
+          ->check(CLI::Range(1, kMostPoints));
+  auto* over_time = command.add_flag(
+      "--over-time", a.over_time,
+      "measure how attention holds over time instead, on a sequence with camera poses or with "
+      "labels that keep their identity");
+  auto* shard = add("--shard", a.shard, "i/n",
+                    "evaluate every n-th image only, from the i-th; combine the shards with --merge [1/1]");
+  auto* merge =
+      add("--merge", a.merge, "DIR...", "combine the results of all shards, instead of evaluating DATASET");
+  for (CLI::Option* option : {kernels, selectors, shard}) over_time->excludes(option);
+  for (CLI::Option* option : {dataset, models, kernels, selectors, points, shard, over_time})
+    merge->excludes(option);
+}
+
+}  // namespace
 
 void add_eval_command(CLI::App& app, std::function<void()>& action) {
   struct State {
@@ -25,30 +56,7 @@ void add_eval_command(CLI::App& app, std::function<void()>& action) {
   CLI::App& command = *app.add_subcommand(
       "eval", "measure the Hit Ratio of models, kernels and selectors on labelled images");
   const auto state = std::make_shared<State>(command);
-  EvalArguments& a = state->arguments;
-  auto* dataset = add_source_option(command, "DATASET", a.dataset,
-                                    "a source whose images have labels; see the end of this help");
-  command.add_option("--out", a.out, "folder to write to; made if it does not exist")
-      ->required()
-      ->type_name("DIR");
-  command.add_option("--models", a.models, "models to compare [that of the settings]")->type_name("LIST");
-  command.add_option("--kernels", a.kernels, "kernel sizes to compare, in px [that of the settings]")
-      ->type_name("LIST");
-  command.add_option("--selectors", a.selectors, "selectors to compare [that of the settings]")
-      ->type_name("LIST");
-  command.add_option("--points", a.points, "attention points per image, 1..1000 [30; with --over-time 10]")
-      ->type_name("N")
-      ->check(CLI::Range(1, kMostPoints));
-  command.add_flag("--over-time", a.over_time,
-                   "measure how attention holds over time instead, on a sequence with camera poses or with "
-                   "labels that keep their identity");
-  command
-      .add_option("--shard", a.shard,
-                  "evaluate every n-th image only, from the i-th; combine the shards with --merge [1/1]")
-      ->type_name("i/n");
-  command.add_option("--merge", a.merge, "combine the results of all shards, instead of evaluating DATASET")
-      ->type_name("DIR...")
-      ->excludes(dataset);
+  add_arguments(command, state->arguments);
   command.callback([state, &action] {
     action = [state] {
       const Settings settings = state->options.resolve();

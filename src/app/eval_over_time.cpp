@@ -1,6 +1,5 @@
 #include "app/eval_over_time.hpp"
 
-#include <cstdio>
 #include <filesystem>
 
 #include <fmt/format.h>
@@ -9,9 +8,12 @@
 #include "app/command.hpp"
 #include "app/interrupt.hpp"
 #include "app/progress.hpp"
+#include "app/standard_output.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
+#include "core/folder_lock.hpp"
 #include "core/png.hpp"
+#include "core/text.hpp"
 #include "eval/plan.hpp"
 #include "eval/sequence_evaluation.hpp"
 #include "models/model.hpp"
@@ -43,17 +45,17 @@ void write_results(const fs::path& out, const EvalArguments& arguments, const Se
   write_file(out / "over_time.svg", to_svg(drawing));
   write_file(out / "over_time.png", encode_png(to_picture(drawing, kPictureScale)));
   if (settings.json)
-    fmt::print("{}\n", dump(json));
+    print_json(json);
   else if (!settings.quiet)
-    fmt::print("{}{} frames; see {}\n", over_time_text(results), results.front().frames, out.string());
-  if (std::fflush(stdout) != 0) throw failed("cannot write", "standard output", "is the disk full?");
+    print_text(fmt::format("{}{}; see {}\n", over_time_text(results),
+                           counted(results.front().frames, "frame"), out.string()));
 }
 
 }  // namespace
 
 void eval_over_time(const EvalArguments& arguments, const Settings& settings) {
   cv::setNumThreads(1);  // the threads are ours to count
-  const Interrupt interrupt;
+  Interrupt interrupt;
   const auto source = open_source(arguments.dataset);
   SourceInfo info = source->info();
   if (info.live || !info.frame_count)
@@ -69,6 +71,8 @@ void eval_over_time(const EvalArguments& arguments, const Settings& settings) {
   const std::vector<std::string> models = models_of(arguments, of_model, info);
   const fs::path out = arguments.out;
   make_output_folder(out);
+  const FolderLock lock(out, "saccade eval --over-time");
+  const Interrupt::Handler handler(interrupt, {});
   WorkerPool pool(worker_count(settings));
   const std::int64_t frames = selected_frames(settings, *info.frame_count);
   Progress progress(!settings.quiet, frames * static_cast<std::int64_t>(models.size()));

@@ -53,14 +53,14 @@ Json stream_json(const OniStreamInfo& stream) {
 }
 
 std::string to_text(const OniStreamInfo& stream) {
-  std::string text = fmt::format("  {:<6} {:<4} {} x {}, {}, {} frame{}, {:.2f} s", to_string(stream.type),
+  std::string text = fmt::format("  {:<6} {:<4} {} x {}, {}, {}, {:.2f} s", to_string(stream.type),
                                  to_string(stream.codec), stream.size.width, stream.size.height,
                                  stream.unusable ? "unusable: " + *stream.unusable : stream.pixels,
-                                 stream.frames, stream.frames == 1 ? "" : "s", stream.duration_s());
+                                 counted(stream.frames, "frame"), stream.duration_s());
   if (stream.measured_rate_hz > 0) text += fmt::format(", {:.2f}/s", stream.measured_rate_hz);
   if (stream.nominal_rate_hz > 0) text += fmt::format(" (nominal {:g})", stream.nominal_rate_hz);
   if (stream.gaps > 0)
-    text += fmt::format(", {} gap{} up to {:.3f} s", stream.gaps, stream.gaps == 1 ? "" : "s",
+    text += fmt::format(", {} up to {:.3f} s", counted(stream.gaps, "gap"),
                         static_cast<double>(stream.largest_gap_us) / 1e6);
   if (stream.dropped > 0) text += fmt::format(", {} dropped while recording", stream.dropped);
   if (stream.intrinsics)
@@ -81,10 +81,10 @@ void oni_info(const std::string& file, bool json) {
     for (const OniStreamInfo& stream : info.streams) out["streams"].push_back(stream_json(stream));
     print_json(out);
   } else {
-    std::string text =
-        fmt::format("{}: {} bytes, version {}{}{}\n", file, info.size_bytes, info.version,
-                    info.closed ? "" : ", not closed",
-                    info.errors > 0 ? fmt::format(", {} problems (see oni check)", info.errors) : "");
+    std::string text = fmt::format(
+        "{}: {}, version {}{}{}\n", file, counted(info.size_bytes, "byte"), info.version,
+        info.closed ? "" : ", not closed",
+        info.errors > 0 ? fmt::format(", {} (see oni check)", counted(info.errors, "problem")) : "");
     for (const OniStreamInfo& stream : info.streams) text += to_text(stream);
     print_text(text);
   }
@@ -114,8 +114,9 @@ void oni_check(const std::string& file, bool json) {
     print_text(text);
   }
   if (!sound)
-    throw unreadable(fmt::format("the recording is not sound, {} errors", problems.count(OniSeverity::error)),
-                     file, "saccade oni repair saves the good frames");
+    throw unreadable(
+        fmt::format("the recording is not sound, {}", counted(problems.count(OniSeverity::error), "error")),
+        file, "saccade oni repair saves the good frames");
 }
 
 void oni_repair(const std::string& file, const std::string& name, bool force, bool json) {
@@ -133,8 +134,9 @@ void oni_repair(const std::string& file, const std::string& name, bool force, bo
   } else {
     std::string text;
     for (const std::string& note : report.notes) text += printable(note) + "\n";
-    text += fmt::format("{}: {} frames saved, {} bad frames left out, {} bytes outside records skipped\n", to,
-                        report.frames, report.bad_frames, report.lost_bytes);
+    text += fmt::format("{}: {} saved, {} left out, {} outside records skipped\n", to,
+                        counted(report.frames, "frame"), counted(report.bad_frames, "bad frame"),
+                        counted(report.lost_bytes, "byte"));
     print_text(text);
   }
 }

@@ -9,6 +9,8 @@
 
 #include <fmt/format.h>
 
+#include "core/text.hpp"
+
 namespace saccade {
 namespace {
 
@@ -29,8 +31,8 @@ std::string bar(double share) {
 
 std::string progress_text(std::int64_t done, std::optional<std::int64_t> total, double elapsed_s) {
   const double rate = elapsed_s > 0 ? static_cast<double>(done) / elapsed_s : 0;
-  if (!total || *total <= 0) return fmt::format("{} frames, {:.1f}/s", done, rate);
-  std::string text = fmt::format("{} of {} frames, {:.1f}/s", done, *total, rate);
+  if (!total || *total <= 0) return fmt::format("{}, {:.1f}/s", counted(done, "frame"), rate);
+  std::string text = fmt::format("{} of {}, {:.1f}/s", done, counted(*total, "frame"), rate);
   if (rate > 0) text += fmt::format(", {:.0f} s left", static_cast<double>(*total - done) / rate);
   return text;
 }

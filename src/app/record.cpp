@@ -16,6 +16,7 @@
 #include "app/standard_output.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
+#include "core/text.hpp"
 #include "oni/recorder.hpp"
 #include "pipeline/source_state_notifier.hpp"
 #include "sources/open_source.hpp"
@@ -105,8 +106,7 @@ class RecordRun {
       try {
         recorder.finish();
         const auto frames = recorder.counts().frames;
-        spdlog::warn("{}: closed with the {} frame{} that came before", arguments_.file, frames,
-                     frames == 1 ? "" : "s");
+        spdlog::warn("{}: closed with the {} that came before", arguments_.file, counted(frames, "frame"));
       } catch (const std::exception& second) {
         spdlog::debug("{}", second.what());  // the first error is the one that matters
       }

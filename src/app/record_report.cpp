@@ -6,6 +6,7 @@
 
 #include "app/run_report.hpp"
 #include "core/file.hpp"
+#include "core/text.hpp"
 
 namespace saccade {
 
@@ -29,23 +30,22 @@ std::string record_text(const RecordReport& report) {
       counts.most_unsynced > 1
           ? fmt::format(", slow disk: up to {} frames at a time were unsynced", counts.most_unsynced)
           : "";
-  return fmt::format("{} frame{} in {:.2f} s, {}, {} dropped{}{}{}; see {}", counts.frames,
-                     counts.frames == 1 ? "" : "s", report.wall_s,
-                     megabytes(static_cast<double>(report.bytes)), counts.dropped,
+  return fmt::format("{} in {:.2f} s, {}, {} dropped{}{}{}; see {}", counted(counts.frames, "frame"),
+                     report.wall_s, megabytes(static_cast<double>(report.bytes)), counts.dropped,
                      report.rejected > 0 ? fmt::format(", {} rejected", report.rejected) : "", slow_disk,
                      report.interrupted ? ", interrupted" : "", report.file);
 }
 
 void report_losses(const RecordReport& report) {
   if (report.rejected > 0)
-    spdlog::warn("{}: {} frame{} rejected, the first, {}", report.source, report.rejected,
-                 report.rejected == 1 ? "" : "s", report.first_rejected);
+    spdlog::warn("{}: {} rejected, the first, {}", report.source, counted(report.rejected, "frame"),
+                 report.first_rejected);
   if (report.counts.rounded > 0)
-    spdlog::warn("{}: depth of {} frames was rounded to the unit of the file, by at most {:.3g} mm",
-                 report.file, report.counts.rounded, report.counts.largest_rounding_mm);
+    spdlog::warn("{}: depth of {} was rounded to the unit of the file, by at most {:.3g} mm", report.file,
+                 counted(report.counts.rounded, "frame"), report.counts.largest_rounding_mm);
   if (report.counts.out_of_range_pixels > 0)
-    spdlog::warn("{}: {} pixels were too far for the unit of the file and have no reading", report.file,
-                 report.counts.out_of_range_pixels);
+    spdlog::warn("{}: {} too far for the unit of the file, and so without a reading", report.file,
+                 counted(report.counts.out_of_range_pixels, "pixel"));
 }
 
 }  // namespace saccade

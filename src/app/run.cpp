@@ -21,6 +21,7 @@
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "core/folder_lock.hpp"
+#include "core/text.hpp"
 #include "models/model.hpp"
 #include "output/fixations_json.hpp"
 #include "output/frame_writer.hpp"
@@ -180,9 +181,10 @@ class Run {
 
   void check_any_processed() const {
     if (report_.ledger.processed == 0 && !report_.rejected.empty())
-      throw unreadable(fmt::format("none of {} frames could be used; the first: {}", report_.ledger.rejected,
-                                   report_.rejected.front().second),
-                       report_.source.uri, "manifest.json lists them with their reasons");
+      throw unreadable(
+          fmt::format("none of {} could be used; the first: {}", counted(report_.ledger.rejected, "frame"),
+                      report_.rejected.front().second),
+          report_.source.uri, "manifest.json lists them with their reasons");
   }
 
   void write_manifest() const {

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/progress.hpp"
+#include "core/text.hpp"
 #include "core/version.hpp"
 #include "output/fixations_json.hpp"
 #include "settings/settings_format.hpp"
@@ -128,9 +129,8 @@ Json manifest_json(const RunReport& report) {
 
 std::string summary_text(const RunReport& report) {
   const Ledger& ledger = report.ledger;
-  return fmt::format("{} frame{} in {:.2f} s ({:.1f}/s){}{}{}; see {}", ledger.processed,
-                     ledger.processed == 1 ? "" : "s", report.wall_s,
-                     static_cast<double>(ledger.processed) / std::max(report.wall_s, 1e-9),
+  return fmt::format("{} in {:.2f} s ({:.1f}/s){}{}{}; see {}", counted(ledger.processed, "frame"),
+                     report.wall_s, static_cast<double>(ledger.processed) / std::max(report.wall_s, 1e-9),
                      report.source.live ? ", " + live_text(ledger, report.latency) : "",
                      ledger.rejected > 0 ? fmt::format(", {} rejected", ledger.rejected) : "",
                      report.status == "interrupted" ? ", interrupted" : "", report.out);
@@ -139,9 +139,8 @@ std::string summary_text(const RunReport& report) {
 void report_rejected(const RunReport& report) {
   if (report.rejected.empty()) return;
   const auto& [index, reason] = report.rejected.front();
-  spdlog::warn("{}: {} frame{} rejected (manifest.json lists them), the first, frame {}: {}",
-               report.source.uri, report.ledger.rejected, report.ledger.rejected == 1 ? "" : "s", index,
-               reason);
+  spdlog::warn("{}: {} rejected (see manifest.json), the first, frame {}: {}", report.source.uri,
+               counted(report.ledger.rejected, "frame"), index, reason);
 }
 
 }  // namespace saccade

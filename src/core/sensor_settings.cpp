@@ -22,7 +22,7 @@ std::string print_mode(const SensorSettings& s) { return s.mode ? to_text(*s.mod
 
 void parse_exposure(SensorSettings& s, const std::string& text) {
   if (text == "auto") return s.exposure.reset();
-  s.exposure = parse_number(text, 0, 1'000'000, "auto or 0..1000000");
+  s.exposure = parse_number(text, 0, 1'000'000, "auto, or an integer in 0..1000000");
 }
 
 std::string print_exposure(const SensorSettings& s) {

@@ -5,15 +5,6 @@
 #include <fmt/format.h>
 
 namespace saccade {
-namespace {
-
-std::string_view without_blanks(std::string_view text) {
-  const auto begin = text.find_first_not_of(' ');
-  if (begin == std::string_view::npos) return {};
-  return text.substr(begin, text.find_last_not_of(' ') + 1 - begin);
-}
-
-}  // namespace
 
 std::string print_number(std::int64_t value) { return fmt::format("{}", value); }
 
@@ -28,6 +19,12 @@ std::size_t find_word(const std::vector<std::string>& words, std::string_view te
   const auto found = std::find(words.begin(), words.end(), text);
   if (found == words.end()) throw std::invalid_argument(fmt::format("one of {}", fmt::join(words, ", ")));
   return static_cast<std::size_t>(found - words.begin());
+}
+
+std::string_view without_blanks(std::string_view text) {
+  const auto begin = text.find_first_not_of(' ');
+  if (begin == std::string_view::npos) return {};
+  return text.substr(begin, text.find_last_not_of(' ') + 1 - begin);
 }
 
 std::vector<std::string> split_list(std::string_view text) {

@@ -69,7 +69,10 @@ template <typename Number>
 /// Index of `text` in `words`. Throws std::invalid_argument that lists the words.
 [[nodiscard]] std::size_t find_word(const std::vector<std::string>& words, std::string_view text);
 
-/// The parts of a list with commas; an empty text has one empty part.
+/// `text` without the blanks at its ends.
+[[nodiscard]] std::string_view without_blanks(std::string_view text);
+
+/// The parts of a list with commas, without the blanks around them; an empty text has one empty part.
 [[nodiscard]] std::vector<std::string> split_list(std::string_view text);
 
 /// A number in [low, high]. In all four functions `field` is a member of Part or of a base of it.
@@ -77,7 +80,8 @@ template <typename Part, typename Base, typename Number>
 SettingOf<Part> number_setting(std::string_view key, std::string_view value, std::string help,
                                Number Base::*field, std::type_identity_t<Number> low,
                                std::type_identity_t<Number> high) {
-  const std::string expected = print_number(low) + ".." + print_number(high);
+  const std::string expected = std::string(std::is_integral_v<Number> ? "an integer in " : "a number in ") +
+                               print_number(low) + ".." + print_number(high);
   return {key, value, std::move(help),
           [=](Part& part, const std::string& text) { part.*field = parse_number(text, low, high, expected); },
           [=](const Part& part) { return print_number(part.*field); }};

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <concepts>
 #include <string>
 #include <string_view>
 
@@ -11,5 +12,11 @@ std::string printable(std::string_view text);
 
 /// The same, but line breaks stay: for text of several lines.
 std::string printable_lines(std::string_view text);
+
+/// "1 frame", "3 frames": the number with its noun, which takes an s unless the number is 1.
+template <std::integral Number>
+std::string counted(Number number, std::string_view noun) {
+  return std::to_string(number).append(" ").append(noun).append(number == 1 ? "" : "s");
+}
 
 }  // namespace saccade

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "core/text.hpp"
 #include "eval/chart.hpp"
 
 namespace saccade {
@@ -212,9 +213,8 @@ Drawing draw_hit_ratios(const EvalPlan& plan, const Statistics& statistics) {
     for (const Series& series : row.panels[0].series) shaded = shaded || series.shaded;
   drawing.shapes.emplace_back(
       Text{{kLeft, 28},
-           fmt::format("Hit Ratio, {} image{}, {:.1f} objects each{}", statistics.images,
-                       statistics.images == 1 ? "" : "s", statistics.objects_mean,
-                       shaded ? "; shaded: 95 % interval" : ""),
+           fmt::format("Hit Ratio, {}, {:.1f} objects each{}", counted(statistics.images, "image"),
+                       statistics.objects_mean, shaded ? "; shaded: 95 % interval" : ""),
            15,
            Anchor::start,
            kInk});

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "attention/confidence.hpp"
+#include "core/text.hpp"
 #include "eval/hit_ratio.hpp"
 #include "eval/markup.hpp"
 
@@ -107,11 +108,10 @@ std::string figure_of(const EvalPlan& plan, const Example& example) {
   const int points = std::min(plan.points, 10);
   const int found = objects_found(image.conditions[example.condition].hits(), points).back();
   return fmt::format(
-      "<figure><img src=\"{}\" alt=\"\" loading=\"lazy\"><figcaption><b>frame {}{}</b>: {} of {} objects "
-      "with "
-      "{} points, {:.0f} % of the bound</figcaption></figure>\n",
+      "<figure><img src=\"{}\" alt=\"\" loading=\"lazy\"><figcaption><b>frame {}{}</b>: {} of {} "
+      "with {}, {:.0f} % of the bound</figcaption></figure>\n",
       example.file, image.frame, image.name.empty() ? "" : " (" + escaped(image.name) + ")", found,
-      image.objects, points, 100 * example.share);
+      counted(image.objects, "object"), counted(points, "point"), 100 * example.share);
 }
 
 std::string sheets(const EvalPlan& plan, const std::vector<Example>& examples) {
@@ -147,11 +147,12 @@ std::string page_html(const EvalPlan& plan, const std::vector<ImageResult>& imag
   std::string html = kHead;
   html += fmt::format("<h1>Hit Ratio on {}</h1>\n", escaped(plan.dataset));
   html += fmt::format(
-      "<p>{} images with {:.1f} labelled objects on average ({} to {}). HR(n) is the number of different "
+      "<p>{} with {:.1f} labelled objects on average ({} to {}). HR(n) is the number of different "
       "objects that the first n points hit, divided by n; small figures are 95 % intervals over "
       "images. A cross-validated model uses, on each half of the images, the kernel and selector that are "
       "best on the other half.</p>\n",
-      statistics.images, statistics.objects_mean, statistics.objects_least, statistics.objects_most);
+      counted(statistics.images, "image"), statistics.objects_mean, statistics.objects_least,
+      statistics.objects_most);
   if (statistics.void_known > 0)
     html += fmt::format(
         "<p>Void is what nobody labelled, known in {} of the images; in the void-neutral Hit Ratio points on "

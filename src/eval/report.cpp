@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "attention/confidence.hpp"
+#include "core/text.hpp"
 #include "core/version.hpp"
 #include "eval/evaluation_format.hpp"
 #include "eval/hit_ratio.hpp"
@@ -174,8 +175,8 @@ std::string points_on_text(const EvalPlan& plan, const Statistics& statistics) {
   const int n = std::min(plan.points, 10);
   const bool void_known = statistics.void_known > 0;
   std::string text =
-      fmt::format("{:<40} {:>6} {:>6} {:>6}{} {:>6}\n", fmt::format("Share of {} points on", n), "new",
-                  "same", "none", void_known ? "   void" : "", "missing");
+      fmt::format("{:<40} {:>6} {:>6} {:>6}{} {:>6}\n", fmt::format("Share of {} on", counted(n, "point")),
+                  "new", "same", "none", void_known ? "   void" : "", "missing");
   const auto conditions = plan.conditions();
   for (std::size_t i = 0; i < conditions.size(); ++i) {
     const PointShares& share = statistics.points_on[i][static_cast<std::size_t>(n - 1)];

@@ -12,11 +12,12 @@ namespace {
 using S = ModelSettings;
 
 void parse_levels(S& s, const std::string& text) {
-  const std::string expected = "A..B with 0 <= A <= B <= 12, e.g. 0..4";
+  const std::string expected = "A..B with integers 0 <= A <= B <= 12, e.g. 0..4";
   const auto dots = text.find("..");
   const std::string low = text.substr(0, dots),
                     high = dots == std::string::npos ? low : text.substr(dots + 2);
-  const int first = parse_number(low, 0, 12, expected), last = parse_number(high, 0, 12, expected);
+  const int first = parse_number(without_blanks(low), 0, 12, expected),
+            last = parse_number(without_blanks(high), 0, 12, expected);
   if (first > last) throw std::invalid_argument(expected);
   s.first_level = first;
   s.last_level = last;

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "core/text.hpp"
 #include "oni/bytes.hpp"
 #include "oni/walker.hpp"
 
@@ -40,7 +41,7 @@ class Checker {
   void check_file() {
     if (index_.zero_tail_bytes > 0)
       add(index_.file_size - index_.zero_tail_bytes, OniSeverity::note,
-          fmt::format("{} zero bytes at the end, as OpenNI2 leaves them", index_.zero_tail_bytes));
+          fmt::format("{} at the end, as OpenNI2 leaves them", counted(index_.zero_tail_bytes, "zero byte")));
     if (index_.nodes.empty()) add(kOniHeaderSize, OniSeverity::error, "no streams");
     if (!closed()) return;
     std::uint64_t last_us = 0;
@@ -74,7 +75,7 @@ class Checker {
     const bool counts = node.record_type != OniRecordType::node_added_1004;
     if (closed() && counts && node.declared.frames != node.frames.size())
       add(node.position, OniSeverity::error,
-          fmt::format("node {} declares {} frames and has {}", node.id, node.declared.frames,
+          fmt::format("node {} declares {} and has {}", node.id, counted(node.declared.frames, "frame"),
                       node.frames.size()));
   }
 
@@ -138,8 +139,8 @@ class Checker {
     const std::size_t expected = (node.frames.size() + 1) * entry_size;
     if (record.payload_size != expected)
       return add(record.position, OniSeverity::error,
-                 fmt::format("the table of node {} has {} bytes instead of {}; players refuse", node.id,
-                             record.payload_size, expected));
+                 fmt::format("the table of node {} has {} instead of {}; players refuse", node.id,
+                             counted(record.payload_size, "byte"), expected));
     std::array<std::uint8_t, 20> entry{};
     for (std::size_t k = 0; k < node.frames.size(); ++k) {
       const std::uint64_t at = record.payload_position() + (k + 1) * entry_size;

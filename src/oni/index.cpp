@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "core/text.hpp"
 #include "oni/bytes.hpp"
 #include "oni/properties.hpp"
 
@@ -107,8 +108,8 @@ class Scanner {
     if (!size) return;
     if (!size->allows(property->value.size()))
       return note(record.position, OniSeverity::error,
-                  fmt::format("{} has an impossible size of {} bytes; ignored", property->name,
-                              property->value.size()));
+                  fmt::format("{} has an impossible size of {}; ignored", property->name,
+                              counted(property->value.size(), "byte")));
     node.changes += 1;
     node.property_bytes += property->value.size();
     if (node.changes > kOniMaxChanges || node.property_bytes > kOniMaxPropertyBytes)
@@ -141,7 +142,7 @@ class Scanner {
     for (const OniGap& gap : walker_.gaps()) {
       const bool last = gap.end + walker_.zero_tail_bytes() >= index_.file_size;
       note(gap.begin, OniSeverity::error,
-           fmt::format("{} bytes are no records: {}", gap.bytes(),
+           fmt::format("{} outside of records: {}", counted(gap.bytes(), "byte"),
                        last ? "the recording is truncated or damaged from here on"
                             : "damaged, reading resumes after them"));
     }

@@ -10,6 +10,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "core/error.hpp"
+#include "core/text.hpp"
 #include "core/version.hpp"
 #include "oni/properties.hpp"
 
@@ -226,7 +227,8 @@ void OniWriter::note_dropped(std::uint64_t total) { counts_.dropped = total; }
 void OniWriter::stop_for_full_disk() {
   close();
   throw failed("disk full", records_.name(),
-               fmt::format("the file is closed with the {} frames before; free some space", counts_.frames));
+               fmt::format("the file is closed with the {} before; free some space",
+                           counted(counts_.frames, "frame")));
 }
 
 void OniWriter::add_closing_properties() {

@@ -87,8 +87,9 @@ SettingOf<S> range_setting(std::string_view key, std::string help, std::optional
             const std::string expected = "auto, or two numbers LOW..HIGH with LOW < HIGH";
             const auto dots = text.find("..");
             if (dots == std::string::npos) throw std::invalid_argument(expected);
-            const ValueRange value{parse_number(text.substr(0, dots), -1e9F, 1e9F, expected),
-                                   parse_number(text.substr(dots + 2), -1e9F, 1e9F, expected)};
+            const ValueRange value{
+                parse_number(without_blanks(std::string_view(text).substr(0, dots)), -1e9F, 1e9F, expected),
+                parse_number(without_blanks(std::string_view(text).substr(dots + 2)), -1e9F, 1e9F, expected)};
             if (!(value.low < value.high)) throw std::invalid_argument(expected);
             range(s) = value;
           },

@@ -88,7 +88,7 @@ const SettingSpec& setting_spec(std::string_view key) {
 void apply_setting(Settings& settings, std::string_view key, const std::string& value) {
   const SettingSpec& spec = setting_spec(key);
   try {
-    spec.parse(settings, value);
+    spec.parse(settings, std::string(without_blanks(value)));
   } catch (const std::invalid_argument& expected) {
     throw usage_error(fmt::format("bad value for {}", key), fmt::format("'{}'", value),
                       fmt::format("expected {}", expected.what()));

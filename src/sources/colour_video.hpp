@@ -1,31 +1,32 @@
 #pragma once
 
 #include <cstdint>
-#include <string>
+#include <deque>
+#include <filesystem>
+#include <memory>
+#include <optional>
 
 #include <opencv2/core.hpp>
-#include <opencv2/videoio.hpp>
+
+#include "sources/colour_decoder.hpp"
 
 namespace saccade {
-
-/// Keeps OpenCV's video libraries from writing to standard error, and from files that a video names:
-/// playlists are no videos.
-void quieten_video_libraries();
 
 /// Colour images of a video file, in the order of their times.
 class ColourVideo {
  public:
-  /// `rate_hz`: where the file names none. Throws Error (unreadable) without a first image.
-  ColourVideo(std::string name, double rate_hz);
+  /// Throws Error (unreadable): not a video, or without any sound image.
+  explicit ColourVideo(std::filesystem::path path);
 
-  cv::Size size() const { return ahead_.size(); }
-  double rate_hz() const { return rate_hz_; }
+  cv::Size size() const { return size_; }  ///< of the first sound image
+  double rate_hz() const { return decoder_->rate_hz(); }
 
-  /// Reads the next image (BGR) into `image`. False at the end.
+  /// Reads the next image (BGR) into `image`. False at the end. Throws std::runtime_error with the reason if
+  /// this image is damaged or lost; the next may be good.
   [[nodiscard]] bool read(cv::Mat3b& image, std::int64_t& time_us);
 
-  /// The image nearest to `time_us`, at most `tolerance_us` away; false if there is none. `time_us` may also
-  /// decrease, which reads the video again from its start.
+  /// The sound image nearest to `time_us`, at most `tolerance_us` away; false if there is none. `time_us` may
+  /// also decrease, which reads the video again from its start. Not to be mixed with read() and skip().
   [[nodiscard]] bool nearest(std::int64_t time_us, std::int64_t tolerance_us, cv::Mat3b& image);
 
   /// Skips an image. False at the end.
@@ -33,15 +34,16 @@ class ColourVideo {
 
  private:
   void open();
+  std::optional<ColourPicture> next();
   void advance();
 
-  std::string name_;
-  double rate_hz_;
-  cv::VideoCapture capture_;
-  std::int64_t count_ = 0;  // images read
-  // nearest() chooses between these two; ahead_ is the later one, empty at the end.
-  cv::Mat now_, ahead_;
-  std::int64_t now_us_ = 0, ahead_us_ = 0;
+  std::filesystem::path path_;
+  std::unique_ptr<ColourDecoder> decoder_;
+  cv::Size size_;
+  std::deque<ColourPicture> first_;  // up to the first sound one, for as long as they have not been read
+  // nearest() chooses between these two, of which ahead_ is the later one.
+  std::optional<ColourPicture> now_, ahead_;
+  bool searching_ = false;  // they are in use
 };
 
 }  // namespace saccade

@@ -20,6 +20,7 @@ extern "C" {
 #include "core/error.hpp"
 #include "core/image_size.hpp"
 #include "core/png.hpp"
+#include "core/text.hpp"
 #include "sources/video_file.hpp"
 
 namespace saccade {
@@ -104,7 +105,7 @@ class RawVideo final : public PacketVideo {
     const Bytes bytes = bytes_of(packet);
     if (bytes.size() != 2 * static_cast<std::size_t>(size().area()))
       throw std::runtime_error(
-          fmt::format("{} bytes for {}x{} pixels", bytes.size(), size().width, size().height));
+          fmt::format("{} for {}x{} pixels", counted(bytes.size(), "byte"), size().width, size().height));
     depth.create(size());
     std::ranges::copy(bytes, depth.data);
   }

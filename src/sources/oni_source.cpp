@@ -7,6 +7,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "core/error.hpp"
+#include "core/text.hpp"
 #include "sources/source_kind.hpp"
 
 namespace saccade {
@@ -24,8 +25,8 @@ const OniNode& need_depth(const Recording& recording) {
   for (const OniNode& node : nodes) {
     if (!holds_frames(node.declared.type)) continue;
     const OniFormat format = format_at(node, std::numeric_limits<std::uint64_t>::max());
-    streams += fmt::format("{}{} with {} frames", streams.empty() ? "" : ", ", to_string(node.declared.type),
-                           node.frames.size());
+    streams += fmt::format("{}{} with {}", streams.empty() ? "" : ", ", to_string(node.declared.type),
+                           counted(node.frames.size(), "frame"));
     if (format.unusable) streams += fmt::format(", {}", *format.unusable);
   }
   throw unreadable("no depth frames in this recording", recording.file().name(),
@@ -115,9 +116,11 @@ void OniSource::note_problems() {
   }
   const std::size_t errors = problems.count(OniSeverity::error);
   if (errors > kMostNotes)
-    info_.notes.push_back(fmt::format("{} more problems; saccade oni check lists them", errors - kMostNotes));
+    info_.notes.push_back(
+        fmt::format("{}; saccade oni check lists them", counted(errors - kMostNotes, "more problem")));
   const auto dropped = depth_->int_property(oni_property::kDropped, recording_.index().file_size).value_or(0);
-  if (dropped > 0) info_.notes.push_back(fmt::format("{} frames were dropped while recording", dropped));
+  if (dropped > 0)
+    info_.notes.push_back(fmt::format("{} dropped while recording", counted(dropped, "frame")));
 }
 
 void OniSource::seek(std::int64_t index) { next_ = index < 0 ? 0 : static_cast<std::size_t>(index); }

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "core/text.hpp"
 #include "sources/folder_source.hpp"
 
 namespace saccade {
@@ -85,8 +86,8 @@ FolderListing list_osd(const fs::path& folder) {
   const auto without = std::count_if(listing.entries.begin(), listing.entries.end(),
                                      [](const FolderEntry& entry) { return entry.label.empty(); });
   if (without > 0)
-    listing.notes.push_back(fmt::format("{} of {} frames have no file of their name in annotation/", without,
-                                        listing.entries.size()));
+    listing.notes.push_back(fmt::format("{} of {} without a file of that name in annotation/", without,
+                                        counted(listing.entries.size(), "frame")));
   return listing;
 }
 

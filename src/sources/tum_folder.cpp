@@ -7,6 +7,7 @@
 
 #include "core/error.hpp"
 #include "core/file.hpp"
+#include "core/text.hpp"
 #include "sources/folder_source.hpp"
 
 namespace saccade {
@@ -84,7 +85,8 @@ FolderListing list_tum(const fs::path& folder) {
   const double span_s = depth.back().time_s - depth.front().time_s;
   if (span_s > 0) listing.rate_hz = static_cast<double>(depth.size() - 1) / span_s;
   if (!colour.empty() && without > 0)
-    listing.notes.push_back(fmt::format("{} depth frames have no colour image within 20 ms", without));
+    listing.notes.push_back(
+        fmt::format("{} without a colour image within 20 ms", counted(without, "depth frame")));
   return listing;
 }
 

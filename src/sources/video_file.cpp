@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 extern "C" {
+#include <libavutil/display.h>
 #include <libavutil/error.h>
 #include <libavutil/log.h>
 }
@@ -126,10 +127,21 @@ bool VideoFile::read_packet() {
 }
 
 std::int64_t VideoFile::time_of(const AVPacket& packet) const {
-  const std::int64_t first = stream_->start_time == AV_NOPTS_VALUE ? 0 : stream_->start_time;
   const std::int64_t time = packet.pts == AV_NOPTS_VALUE ? packet.dts : packet.pts;
   if (time == AV_NOPTS_VALUE) return std::llround(static_cast<double>(count_) * 1e6 / rate_hz_);
-  return av_rescale_q(time - first, stream_->time_base, {1, 1'000'000});
+  return time_us(time);
+}
+
+std::int64_t VideoFile::time_us(std::int64_t timestamp) const {
+  const std::int64_t first = stream_->start_time == AV_NOPTS_VALUE ? 0 : stream_->start_time;
+  return av_rescale_q(timestamp - first, stream_->time_base, {1, 1'000'000});
+}
+
+double VideoFile::rotation_degrees() const {
+  const std::uint8_t* matrix = av_stream_get_side_data(stream_, AV_PKT_DATA_DISPLAYMATRIX, nullptr);
+  const double angle =
+      matrix == nullptr ? 0 : av_display_rotation_get(reinterpret_cast<const std::int32_t*>(matrix));
+  return std::isfinite(angle) ? angle : 0;
 }
 
 // The number of images that would fit between the last one and `time_us`.
@@ -157,9 +169,16 @@ void VideoFile::look_for_gap() {
   if (!reason_.empty()) lost_ = missing_before(time_of(*packet_));
 }
 
+// By the number of images that the container announces, or else by its end: unless the images come at
+// irregular times and the last one may simply last long.
+std::int64_t VideoFile::lost_at_end() const {
+  if (stream_->nb_frames > 0) return std::clamp<std::int64_t>(stream_->nb_frames - count_, 0, kMostLost);
+  const auto end = end_us();
+  return end && *end - last_us_ > longest_us_ + longest_us_ / 2 ? missing_before(*end) : 0;
+}
+
 void VideoFile::look_for_lost_end() {
-  if (const auto end = end_us()) lost_ = missing_before(*end);
-  lost_ = std::max(lost_, std::min(stream_->nb_frames - count_, kMostLost));
+  lost_ = lost_at_end();
   if (lost_ == 0 && !reason_.empty()) lost_ = 1;
   if (reason_.empty()) reason_ = "the file is truncated";
 }
@@ -183,7 +202,8 @@ std::optional<VideoPacket> VideoFile::next() {
   VideoPacket result{packet_.get(), time_of(*packet_), ""};
   if ((packet_->flags & AV_PKT_FLAG_CORRUPT) != 0) result.problem = "the image is cut";
   if (damaged_) result.problem = kBadChecksum;
-  last_us_ = result.time_us;
+  if (last_us_ >= 0) longest_us_ = std::max(longest_us_, result.time_us - last_us_);
+  last_us_ = std::max(last_us_, result.time_us);  // in the order of decoding they may go back
   ++count_;
   return result;
 }

@@ -58,6 +58,13 @@ class VideoFile {
   const AVCodecParameters& codec() const { return *stream_->codecpar; }
   cv::Size size() const { return {codec().width, codec().height}; }
   double rate_hz() const { return rate_hz_; }  ///< nominal, > 0
+  AVRational time_base() const { return stream_->time_base; }
+
+  /// A timestamp of the stream as time from the first image.
+  std::int64_t time_us(std::int64_t timestamp) const;
+
+  /// By how much the images must be turned to be upright, counterclockwise.
+  double rotation_degrees() const;
 
   /// Whether damage of an image can be noticed by checksums of the container.
   bool has_checksums() const { return checksums_.present(); }
@@ -81,6 +88,7 @@ class VideoFile {
   std::int64_t missing_before(std::int64_t time_us) const;
   std::optional<std::int64_t> end_us() const;
   void look_for_gap();
+  std::int64_t lost_at_end() const;
   void look_for_lost_end();
 
   std::unique_ptr<AVFormatContext, CloseFormat> format_;
@@ -91,7 +99,8 @@ class VideoFile {
   std::int64_t damaged_clusters_ = 0;  // up to the packet that was read
   bool damaged_ = false;               // its cluster is
   std::int64_t count_ = 0;             // positions given so far
-  std::int64_t last_us_ = -1;          // of the last position
+  std::int64_t last_us_ = -1;          // the latest of the positions
+  std::int64_t longest_us_ = 0;        // the greatest distance of two sound ones
   std::int64_t lost_ = 0;              // positions to give before the packet that was read, or the end
   bool waiting_ = false;               // a packet was read and is to be given after the lost ones
   bool at_end_ = false;

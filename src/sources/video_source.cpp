@@ -24,7 +24,6 @@ namespace {
 
 constexpr std::string_view kEndings[] = {".mkv", ".nut",  ".mov", ".mp4",  ".m4v",
                                          ".avi", ".webm", ".mpg", ".mpeg", ".ogv"};
-constexpr double kDefaultRateHz = 30;
 
 void set_camera(SourceInfo& info, const fs::path& folder) {
   info.intrinsics = read_meta(folder).value_or(Intrinsics::guess_for(info.size));
@@ -105,7 +104,8 @@ class DepthVideoSource final : public FrameSource {
 // Colour without depth.
 class ColourVideoSource final : public FrameSource {
  public:
-  ColourVideoSource(const SourceInput& input, std::string_view kind) : path_(input.path), video_(open()) {
+  ColourVideoSource(const SourceInput& input, std::string_view kind)
+      : path_(input.path), video_(std::make_unique<ColourVideo>(path_)) {
     info_.uri = input.uri;
     info_.kind = kind;
     info_.size = video_->size();
@@ -121,25 +121,25 @@ class ColourVideoSource final : public FrameSource {
 
   ReadResult read(Frame& frame, std::chrono::milliseconds) override {
     if (wanted_ < next_) {
-      video_ = open();
+      video_ = std::make_unique<ColourVideo>(path_);
       next_ = 0;
     }
     for (; next_ < wanted_; ++next_)
       if (!video_->skip()) return {ReadStatus::end, ""};
     begin_frame(frame, info_, wanted_);
-    if (!video_->read(frame.colour, frame.timestamp_us)) return {ReadStatus::end, ""};
-    ++wanted_;
-    ++next_;
-    if (frame.colour.size() != info_.size) return {ReadStatus::rejected, "another size than the first image"};
+    try {
+      ++wanted_;
+      ++next_;
+      if (!video_->read(frame.colour, frame.timestamp_us)) return {ReadStatus::end, ""};
+      if (frame.colour.size() != info_.size) throw std::runtime_error("another size than the first image");
+    } catch (const std::runtime_error& error) {
+      return {ReadStatus::rejected, fmt::format("frame {}: {}", frame.index, error.what())};
+    }
     set_no_depth(frame, info_.size);
     return {ReadStatus::frame, ""};
   }
 
  private:
-  std::unique_ptr<ColourVideo> open() const {
-    return std::make_unique<ColourVideo>(path_.string(), kDefaultRateHz);
-  }
-
   fs::path path_;
   std::unique_ptr<ColourVideo> video_;
   SourceInfo info_;
@@ -147,7 +147,7 @@ class ColourVideoSource final : public FrameSource {
 };
 
 // The video NAME_rgb.* beside NAME_depth.*; nullptr if there is none.
-std::unique_ptr<ColourVideo> colour_of_video(const fs::path& path, double rate_hz) {
+std::unique_ptr<ColourVideo> colour_of_video(const fs::path& path) {
   constexpr std::string_view kDepth = "_depth";
   std::string stem = path.stem().string();
   if (!stem.ends_with(kDepth)) return nullptr;
@@ -156,7 +156,7 @@ std::unique_ptr<ColourVideo> colour_of_video(const fs::path& path, double rate_h
   for (const std::string_view ending : kEndings)
     if (const fs::path colour = path.parent_path() / (stem + "_rgb").append(ending);
         fs::is_regular_file(colour, code))
-      return std::make_unique<ColourVideo>(colour.string(), rate_hz);
+      return std::make_unique<ColourVideo>(colour);
   return nullptr;
 }
 
@@ -172,7 +172,7 @@ extern const SourceKind kVideoKind = {
       const auto open = [path = input.path] { return open_depth_video(path); };
       auto depth = open();
       if (!depth) return std::make_unique<ColourVideoSource>(input, kVideoKind.name);
-      auto colour = colour_of_video(input.path, depth->rate_hz());
+      auto colour = colour_of_video(input.path);
       return std::make_unique<DepthVideoSource>(input, kVideoKind.name, std::move(depth), open,
                                                 std::move(colour));
     },

@@ -2,10 +2,10 @@
 #include <stdexcept>
 #include <vector>
 
+#include <opencv2/core/utils/logger.hpp>
 #include <opencv2/videoio.hpp>
 
 #include "core/error.hpp"
-#include "sources/colour_video.hpp"
 #include "sources/frame_fields.hpp"
 #include "sources/source_kind.hpp"
 
@@ -18,7 +18,7 @@ constexpr std::string_view kScheme = "v4l2:";
 class WebcamSource final : public FrameSource {
  public:
   explicit WebcamSource(const std::string& uri) {
-    quieten_video_libraries();
+    cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
     const std::string device = uri.substr(kScheme.size());
     capture_.emplace_back(device, cv::CAP_V4L2);
     cv::Mat first;

@@ -102,6 +102,22 @@ TEST_F(LiveTest, ASilentDeviceIsNoticed) {
   EXPECT_GE(json::parse(outcome.out)["device"]["losses"], 1);
 }
 
+// The frames that wait for the processing must neither hide the silence nor be lost in it.
+TEST_F(LiveTest, ASilentDeviceIsNoticedWhileProcessingIsSlowerThanTheDevice) {
+  plug_in("&rate=500&loss_after=100&loss=silent&back_after_ms=2300");
+  const ProgramResult outcome =
+      run_saccade({"run", "openni2", "--mode", "80x60", "--frames", "105", "--out", in("out"), "--dump",
+                   "none", "--simd", "scalar", "--workers", "1", "--kernel", "9", "--json"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_THAT(outcome.err, HasSubstr("no depth for 2 s"));
+  const json summary = json::parse(outcome.out);
+  EXPECT_EQ(summary["ledger"]["processed"], 105);
+  EXPECT_GT(summary["dropped_by"]["newer_frame"], 0) << "the device is faster";
+  EXPECT_GE(summary["device"]["losses"], 1);
+  EXPECT_GT(summary["device"]["away_s"], 0.2);
+  expect_complete();
+}
+
 TEST_F(LiveTest, WithoutReconnectLosingTheDeviceIsAnError) {
   plug_in("&loss_after=8&loss=event&back_after_ms=50");
   const ProgramResult outcome = run_saccade({"run", "openni2", "--mode", "160x120", "--frames", "20", "--out",

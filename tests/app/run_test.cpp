@@ -173,9 +173,8 @@ TEST_F(RunTest, UnusableFramesAreRejectedAndTheRestIsProcessed) {
                encode_png(cv::Mat1w(64, 64, std::uint16_t{900})));
   write_file(folder_ / "0002_depth.png", std::string_view("not a picture"));
   const ProgramResult outcome = run("out", {}, folder_.string());
-  EXPECT_THAT(outcome.err,
-              ::testing::HasSubstr(
-                  "1 frame rejected (manifest.json lists them), the first, frame 2: 0002_depth.png"));
+  EXPECT_THAT(outcome.err, ::testing::HasSubstr(
+                               "1 frame rejected (see manifest.json), the first, frame 2: 0002_depth.png"));
   const json manifest = json::parse(text("out/manifest.json"));
   EXPECT_EQ(manifest["ledger"], json({{"captured", 4}, {"processed", 3}, {"dropped", 0}, {"rejected", 1}}));
   EXPECT_EQ(manifest["rejected"][0]["frame"], 2);

@@ -91,20 +91,47 @@ TEST_F(FileTest, PipesAreRefusedWithoutWaiting) {
   ::close(reader);
 }
 
+// While it lives, files of more than ten bytes are an error, like a full disk.
+class TenBytesAFile {
+ public:
+  TenBytesAFile() {
+    std::signal(SIGXFSZ, SIG_IGN);
+    EXPECT_EQ(::getrlimit(RLIMIT_FSIZE, &before_), 0);
+    const rlimit small{10, before_.rlim_max};
+    EXPECT_EQ(::setrlimit(RLIMIT_FSIZE, &small), 0);
+  }
+  ~TenBytesAFile() { ::setrlimit(RLIMIT_FSIZE, &before_); }
+  TenBytesAFile(const TenBytesAFile&) = delete;
+  TenBytesAFile& operator=(const TenBytesAFile&) = delete;
+
+ private:
+  rlimit before_{};
+};
+
 TEST_F(FileTest, ALineThatDoesNotFitLeavesNoPartOfItself) {
-  LineFile lines(folder_ / "l");
-  lines.append("one");
-  rlimit before{};
-  ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
-  std::signal(SIGXFSZ, SIG_IGN);
-  const rlimit small{10, before.rlim_max};
-  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &small), 0);
-  EXPECT_THROW(lines.append("a line of more than ten bytes"), Error);
-  const std::string after = content(folder_ / "l");
-  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &before), 0);
-  EXPECT_EQ(after, "one\n");
-  lines.append("two");
-  EXPECT_EQ(content(folder_ / "l"), "one\ntwo\n");
+  LineFile(folder_ / "kept").append("one");
+  for (const auto existing : {LineFile::Existing::replace, LineFile::Existing::keep}) {
+    const fs::path path = folder_ / (existing == LineFile::Existing::keep ? "kept" : "new");
+    LineFile lines(path, existing);
+    if (existing == LineFile::Existing::replace) lines.append("one");
+    {
+      const TenBytesAFile limit;
+      EXPECT_THROW(lines.append("a line of more than ten bytes"), Error);
+    }
+    EXPECT_EQ(content(path), "one\n");
+    lines.append("two");
+    EXPECT_EQ(content(path), "one\ntwo\n");
+  }
+}
+
+TEST_F(FileTest, AFileThatDoesNotFitLeavesTheOneBeforeAndNothingBeside) {
+  write_file(folder_ / "a", std::string_view("before"));
+  {
+    const TenBytesAFile limit;
+    EXPECT_THROW(write_file(folder_ / "a", std::string_view("more than ten bytes")), Error);
+  }
+  EXPECT_EQ(content(folder_ / "a"), "before");
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()), 1);
 }
 
 TEST_F(FileTest, AFileThatIsDeletedMeanwhileIsAnError) {

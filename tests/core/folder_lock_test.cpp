@@ -3,7 +3,10 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <optional>
+#include <thread>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -50,6 +53,28 @@ TEST_F(FolderLockTest, AKilledOwnerLeavesNoLock) {
   ASSERT_EQ(::waitpid(child, nullptr, 0), child);
   EXPECT_TRUE(fs::exists(folder_ / ".saccade.lock"));
   EXPECT_EQ(complaint(), "");
+}
+
+// An owner may remove the file between the moments when another one opens and locks it.
+TEST_F(FolderLockTest, OwnersThatComeAndGoAreNeverTwoAtOnce) {
+  constexpr int kTurns = 400;
+  std::atomic<int> owners = 0, most = 0;
+  {
+    std::vector<std::jthread> threads;
+    for (int i = 0; i < 4; ++i)
+      threads.emplace_back([&] {
+        for (int turns = 0; turns < kTurns;) try {
+            const FolderLock lock(folder_, "one of many");
+            const int now = ++owners;
+            if (now > most) most = now;
+            ++turns;
+            --owners;
+          } catch (const Error&) {
+            std::this_thread::yield();  // in use
+          }
+      });
+  }
+  EXPECT_EQ(most, 1);
 }
 
 TEST_F(FolderLockTest, ASymbolicLinkIsNotFollowed) {

@@ -1,5 +1,7 @@
 #include "core/text.hpp"
 
+#include <cstdint>
+
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
@@ -33,6 +35,13 @@ TEST(Printable, BytesThatAreNotUtf8AreEscaped) {
 }
 
 TEST(Printable, LinesKeepTheirBreaks) { EXPECT_EQ(printable_lines("a\nb\x1b\n"), "a\nb\\x1b\n"); }
+
+TEST(Counted, OneHasNoS) {
+  EXPECT_EQ(counted(1, "frame"), "1 frame");
+  EXPECT_EQ(counted(std::uint64_t{0}, "depth frame"), "0 depth frames");
+  EXPECT_EQ(counted(std::int64_t{-1}, "byte"), "-1 bytes");
+  EXPECT_EQ(counted(12345678901, "byte"), "12345678901 bytes");
+}
 
 TEST(ErrorText, IsOnePrintableLine) {
   EXPECT_STREQ(failed("cannot\nread", "a\x1b[2Jb", "try").what(), "cannot read: a\\x1b[2Jb (try)");

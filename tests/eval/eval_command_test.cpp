@@ -114,7 +114,7 @@ TEST_F(EvalTest, GoesOnAfterACut) {
              all[0] + "\n" + all[1] + "\n" + all[2] + "\n" + all[3].substr(0, all[3].size() / 2));
   const ProgramResult outcome = eval("cut");
   EXPECT_EQ(outcome.status, 0) << outcome.err;
-  EXPECT_THAT(outcome.err, HasSubstr("2 images are evaluated already"));
+  EXPECT_THAT(outcome.err, HasSubstr("2 images evaluated already"));
   EXPECT_EQ(lines("cut/results.jsonl")[2], all[2]) << "not evaluated again";
   expect_same("whole", "cut");
 }
@@ -217,6 +217,10 @@ TEST_F(EvalTest, Errors) {
   expect_error(kUsage, "--start 7", command(kScenes, out, {"--start", "7"}));
   expect_error(kUsage, "points", command(kScenes, out, {"--points", "0"}));
   expect_error(kUsage, "--merge", command(kScenes, out, {"--merge", out}));
+  for (const std::string option : {"--kernels", "--selectors", "--shard"})
+    expect_error(kUsage, option, {"eval", kScenes, "--out", out, "--over-time", option, "1/1"});
+  for (const std::string option : {"--models", "--kernels", "--selectors", "--shard", "--points"})
+    expect_error(kUsage, option, {"eval", "--merge", out, option, "3", "--out", out});
   expect_error(kUsage, "level 5", command(kScenes, out, {"--levels", "0..5"}));
   EXPECT_FALSE(fs::exists(folder_ / "out")) << "nothing is made before the command line is right";
   expect_error(kUnreadable, "no such source", command(in("nowhere"), out));
@@ -231,7 +235,7 @@ TEST_F(EvalTest, NoLabelsAtAll) {
   put("0000_depth.png", cv::Mat1w(120, 160, std::uint16_t{1000}));
   const ProgramResult outcome = eval("out", {"--log-level", "error"}, in("data"));
   EXPECT_EQ(outcome.status, kUnreadable);
-  EXPECT_THAT(outcome.err, HasSubstr("none of 1 images could be evaluated; the first: it has no label"));
+  EXPECT_THAT(outcome.err, HasSubstr("none of 1 image could be evaluated; the first: it has no label"));
   EXPECT_TRUE(outcome.one_error_line());
 }
 

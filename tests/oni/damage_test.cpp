@@ -6,6 +6,7 @@
 #include "oni/check.hpp"
 #include "oni/recording.hpp"
 #include "oni/repair.hpp"
+#include "oni/walker.hpp"
 #include "oni_fixtures.hpp"
 
 namespace saccade {
@@ -105,6 +106,48 @@ TEST_F(DamageTest, ADestroyedStretchCostsOnlyTheFramesItTouches) {
     EXPECT_EQ(frames_of(path("repaired.oni")), (std::vector<int>{0, 2, 3}));
     EXPECT_TRUE(sound(path("repaired.oni"))) << problems_of(path("repaired.oni"));
   }
+}
+
+// The search for the next record reads 64 KiB at a time.
+TEST_F(DamageTest, ARecordIsFoundWhereTwoReadsOfTheSearchMeet) {
+  constexpr std::size_t kRead = 65536, kRecordToPayload = 40;
+  const Recording recording(path("whole.oni"));
+  const auto& frames = main_depth(recording)->frames;
+  const std::size_t record = frames[1].payload_position - kRecordToPayload,
+                    end = frames[1].payload_position + frames[1].payload_size;
+  for (std::size_t before = 0; before <= 4; ++before) {  // bytes of the magic at the end of the first read
+    Bytes damaged = whole_;
+    damaged.insert(damaged.begin() + static_cast<std::ptrdiff_t>(end), record + 4 + kRead - before - end,
+                   0xA5);
+    write_bytes(path("d.oni"), damaged);
+    EXPECT_EQ(frames_of(path("d.oni")), first_frames(kFrames)) << before;
+  }
+}
+
+TEST_F(DamageTest, MoreDamagedPlacesThanAreListedAreCountedAllTheSame) {
+  constexpr std::size_t kListed = 1000, kPlaces = kListed + 100, kGarbage = 5;
+  const Recording recording(path("whole.oni"));
+  const OniFrameEntry& frame = main_depth(recording)->frames[0];
+  const auto at = [&](std::uint64_t position) {
+    return whole_.begin() + static_cast<std::ptrdiff_t>(position);
+  };
+  const Bytes record(at(frame.payload_position - 40), at(frame.payload_position + frame.payload_size));
+  Bytes damaged(whole_.begin(), at(frame.payload_position - 40));
+  for (std::size_t k = 0; k < kPlaces; ++k) {
+    // Two at a time: a record counts only where another one follows.
+    for (int i = 0; i < 2; ++i) damaged.insert(damaged.end(), record.begin(), record.end());
+    damaged.insert(damaged.end(), kGarbage, 0xA5);
+  }
+  damaged.insert(damaged.end(), record.begin(), record.end());
+  write_bytes(path("d.oni"), damaged);
+  const InputFile file(path("d.oni"));
+  OniWalker walker(file);
+  std::size_t found = 0;
+  while (const auto next = walker.next()) found += next->type == OniRecordType::new_data ? 1 : 0;
+  EXPECT_EQ(found, 2 * kPlaces + 1);
+  ASSERT_EQ(walker.gaps().size(), kListed);
+  EXPECT_GT(walker.gaps().back().bytes(), 100 * record.size()) << "the last one includes the others";
+  EXPECT_EQ(walker.lost_bytes(), kPlaces * kGarbage);
 }
 
 TEST_F(DamageTest, AWrongLengthDoesNotHideTheRecordsThatFollow) {

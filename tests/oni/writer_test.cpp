@@ -14,6 +14,7 @@
 namespace saccade {
 namespace {
 
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
 const cv::Size kSize(40, 30);
@@ -173,6 +174,20 @@ TEST_F(OniWriterTest, DropsAreNotedInTheFile) {
   EXPECT_EQ(node.int_property(oni_property::kDropped, recording.index().file_size), 5u);
 }
 
+TEST_F(OniWriterTest, ATimeBeforeTheFirstIsTheFirst) {
+  OniWriter writer(path("t.oni"), {});
+  Frame frame = test_frame(0, kSize, false);
+  for (const std::int64_t time_us : {100'000, 40'000, 160'000}) {
+    frame.timestamp_us = time_us;
+    writer.write(frame);
+  }
+  writer.close();
+  const Recording recording(path("t.oni"));
+  std::vector<std::uint64_t> times;
+  for (const OniFrameEntry& entry : main_depth(recording)->frames) times.push_back(entry.timestamp_us);
+  EXPECT_THAT(times, ElementsAre(0, 0, 60'000));
+}
+
 TEST_F(OniWriterTest, AnExistingFileIsReplacedOnlyOnRequest) {
   write_bytes(path("precious"), std::vector<std::uint8_t>{1, 2, 3});
   EXPECT_THROW(OniWriter(path("precious"), {}), Error);
@@ -212,22 +227,29 @@ class SizeLimit {
 };
 
 TEST_F(OniWriterTest, OnAFullDiskTheFileIsClosedWithAllFramesBefore) {
-  const SizeLimit limit(20'000);
-  OniWriter writer(path("full.oni"), {.depth_codec = OniDepthCodec::none});
-  std::string error;
-  std::size_t written = 0;
-  for (int k = 0; k < 100 && error.empty(); ++k) try {
-      writer.write(test_frame(k, kSize, false));
-      ++written;
-    } catch (const Error& full) {
-      error = full.what();
-    }
-  EXPECT_THAT(error, HasSubstr("disk full"));
-  EXPECT_GT(written, 3u);
-  EXPECT_LE(std::filesystem::file_size(path("full.oni")), 20'000u);
-  expect_sound(path("full.oni"));
-  const Recording recording(path("full.oni"));
-  EXPECT_EQ(main_depth(recording)->frames.size(), written);
+  for (const rlim_t most_bytes : {20'000U, 400'000U}) {  // the table of many frames needs room, too
+    SCOPED_TRACE(most_bytes);
+    const SizeLimit limit(most_bytes);
+    OniWriter writer(path("full.oni"), {.depth_codec = OniDepthCodec::none, .overwrite = true});
+    std::string error;
+    std::size_t written = 0;
+    for (int k = 0; k < 1000 && error.empty(); ++k) try {
+        Frame frame = test_frame(k % 50, kSize, false);
+        frame.timestamp_us = 33'333 * k;
+        writer.write(frame);
+        ++written;
+      } catch (const Error& full) {
+        error = full.what();
+      }
+    EXPECT_THAT(error, HasSubstr("disk full"));
+    EXPECT_THAT(error,
+                HasSubstr("the file is closed with the " + std::to_string(written) + " frames before"));
+    EXPECT_GT(written, most_bytes / 5000);
+    EXPECT_LE(std::filesystem::file_size(path("full.oni")), most_bytes);
+    expect_sound(path("full.oni"));
+    const Recording recording(path("full.oni"));
+    EXPECT_EQ(main_depth(recording)->frames.size(), written);
+  }
 }
 
 TEST_F(OniWriterTest, TheRecorderWritesAcceptedFramesAndCountsTheOthers) {

@@ -23,6 +23,12 @@ TEST(FixationsJson, HasExactlyTheDocumentedFields) {
   EXPECT_NO_THROW(nlohmann::json::parse(fixations_json(result)));
 }
 
+TEST(FixationsJson, ANameThatIsNotUtf8IsReplacedAndNoError) {
+  Result result;
+  result.frame.name = "caf\xe9";  // Latin-1
+  EXPECT_EQ(nlohmann::json::parse(fixations_json(result))["name"], "caf\xef\xbf\xbd");
+}
+
 TEST(FixationsJson, OverTimeHasIdsGazeAndPose) {
   Result result;
   Fixation fixation{3, 4, 0.5F, {1, 2, 3}, {}};

@@ -31,6 +31,20 @@ TEST(Tiff, OpenCvReadsThreeChannelsExactlyAndReversed) {
   EXPECT_EQ(cv::norm(read, image, cv::NORM_INF), 0);
 }
 
+// The value of a field, which OpenCV need not care about but other readers do.
+int field_of(const std::vector<std::uint8_t>& tiff, int tag) {
+  constexpr std::size_t kFirst = 10, kField = 12;
+  for (std::size_t at = kFirst; at < kFirst + tiff[8] * kField; at += kField)
+    if ((tiff[at] | tiff[at + 1] << 8) == tag) return tiff[at + 8] | tiff[at + 9] << 8;
+  return -1;
+}
+
+TEST(Tiff, GreyGrowsFromBlackToWhite) {
+  constexpr int kPhotometric = 262, kBlackIsZero = 1, kRgb = 2;
+  EXPECT_EQ(field_of(encode_tiff(cv::Mat1f(8, 8, 0.5F)), kPhotometric), kBlackIsZero);
+  EXPECT_EQ(field_of(encode_tiff(cv::Mat3f(8, 8)), kPhotometric), kRgb);
+}
+
 TEST(Tiff, RefusesOtherTypes) {
   EXPECT_THROW((void)encode_tiff(cv::Mat1b(8, 8)), std::invalid_argument);
   EXPECT_THROW((void)encode_tiff(cv::Mat1f()), std::invalid_argument);

@@ -17,6 +17,7 @@ class FakeClock : public PlayClock {
  public:
   Time now() override { return now_; }
   void wait(std::unique_lock<std::mutex>&, std::condition_variable&, Time until) override { now_ = until; }
+  void pass(milliseconds time) { now_ += time; }
   double seconds() const { return std::chrono::duration<double>(now_.time_since_epoch()).count(); }
 
  private:
@@ -73,6 +74,21 @@ TEST_F(PacedSourceTest, FramesComeWhenTheirTimestampsAreDue) {
   EXPECT_NEAR(clock_->seconds(), 0.5, 1e-6);
   EXPECT_EQ(next(), 6);
   EXPECT_NEAR(clock_->seconds(), 2.5, 1e-6) << "a gap lasts 2 s at most";
+}
+
+TEST_F(PacedSourceTest, SmallDelaysAreMadeUpForAndLargeOnesAreNot) {
+  open(10);
+  EXPECT_EQ(next(), 0);
+  clock_->pass(milliseconds(130));  // the consumer is busy
+  EXPECT_EQ(next(), 1);
+  EXPECT_NEAR(clock_->seconds(), 0.13, 1e-6) << "late, and so at once";
+  EXPECT_EQ(next(), 2);
+  EXPECT_NEAR(clock_->seconds(), 0.2, 1e-6) << "on time again";
+  clock_->pass(milliseconds(1000));
+  EXPECT_EQ(next(), 3);
+  EXPECT_NEAR(clock_->seconds(), 1.2, 1e-6);
+  EXPECT_EQ(next(), 4);
+  EXPECT_NEAR(clock_->seconds(), 1.3, 1e-6) << "the others do not come in a burst";
 }
 
 TEST_F(PacedSourceTest, OnlyThePartBetweenTheBoundsIsPlayed) {

@@ -50,6 +50,36 @@ TEST(Pipeline, TakesStartEveryAndLimit) {
   EXPECT_EQ(indices(pipeline), (std::vector<std::int64_t>{5, 15, 25, 35}));
 }
 
+// A sensor that drops some frames by itself: it gives those of these indices.
+class LiveSource : public CountingSource {
+ public:
+  explicit LiveSource(std::vector<std::int64_t> given)
+      : CountingSource(std::ssize(given)), given_(std::move(given)) {
+    info_.live = true;
+  }
+  ReadResult read(Frame& frame, milliseconds timeout) override {
+    const ReadResult result = CountingSource::read(frame, timeout);
+    if (result.status == ReadStatus::frame) {
+      frame.index = given_[static_cast<std::size_t>(frame.index)];
+      frame.depth_mm = static_cast<float>(frame.index);
+    }
+    return result;
+  }
+  void seek(std::int64_t) override { ADD_FAILURE() << "a live source cannot seek"; }
+
+ private:
+  std::vector<std::int64_t> given_;
+};
+
+TEST(Pipeline, OfALiveSourceTooItTakesStartAndEvery) {
+  PipelineOptions options;
+  options.frames = {2, 3, 0};
+  Pipeline pipeline(std::make_unique<LiveSource>(std::vector<std::int64_t>{0, 1, 2, 3, 4, 8, 9, 11, 12, 20}),
+                    std::make_unique<CopyProcessor>(), options);
+  EXPECT_EQ(indices(pipeline), (std::vector<std::int64_t>{2, 8, 11, 20}))
+      << "three later than the one before";
+}
+
 TEST(Pipeline, RejectedFramesAreCountedReportedAndSkipped) {
   PipelineOptions options;
   std::vector<std::int64_t> rejected;

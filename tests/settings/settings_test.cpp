@@ -2,6 +2,8 @@
 
 #include <filesystem>
 #include <set>
+#include <tuple>
+#include <utility>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -83,11 +85,34 @@ TEST(Settings, ChosenLevelsAreNotTheDefaultOnes) {
 
 TEST(Settings, KernelIsChecked) {
   Settings s;
-  for (const char* bad : {"2", "128", "15.5", "", "abc", "-3", "15 "})
+  for (const char* bad : {"2", "128", "15.5", "", "abc", "-3", "1 5"})
     EXPECT_THAT(error_of([&] { apply_setting(s, "kernel", bad); }), HasSubstr("3..127")) << bad;
   EXPECT_EQ(s.kernel, 15);
   apply_setting(s, "kernel", "127");
   EXPECT_EQ(s.kernel, 127);
+}
+
+TEST(Settings, BlanksAroundValuesDoNotMatter) {
+  Settings s;
+  apply_setting(s, "kernel", " 21 ");
+  EXPECT_EQ(s.kernel, 21);
+  apply_setting(s, "intrinsics", "525, 526, 319.5 , 239.5");
+  ASSERT_TRUE(s.intrinsics);
+  EXPECT_EQ(std::tuple(s.intrinsics->fx, s.intrinsics->fy, s.intrinsics->cx, s.intrinsics->cy),
+            std::tuple(525, 526, 319.5, 239.5));
+  apply_setting(s, "levels", "1 .. 3");
+  EXPECT_EQ(std::pair(s.first_level, s.last_level), std::pair(1, 3));
+  apply_setting(s, "depth-range", " 500 .. 2500.5");
+  EXPECT_EQ(s.overlay.depth.range_mm->high, 2500.5F);
+  apply_setting(s, "selector", "wta ");
+  EXPECT_EQ(s.selector, Selector::wta);
+}
+
+TEST(Settings, AFractionWhereAnIntegerIsNeededIsRefusedWithThatReason) {
+  Settings s;
+  for (const char* key : {"kernel", "fixations", "frames", "workers", "exposure", "levels"})
+    EXPECT_THAT(error_of([&] { apply_setting(s, key, "15.5"); }), HasSubstr("integer")) << key;
+  EXPECT_THAT(error_of([&] { apply_setting(s, "dwell", "x"); }), HasSubstr("a number in 0..60"));
 }
 
 TEST(Settings, LevelsAreARangeOrOneNumber) {
@@ -130,6 +155,14 @@ TEST(Settings, TomlErrorsNameTheLine) {
   EXPECT_THAT(load(s, "kernel = 200\n"), HasSubstr("3..127"));
   EXPECT_THAT(load(s, "kernel = = 3\n"), HasSubstr("not valid TOML"));
   EXPECT_THAT(load(s, "[kernel]\nk = 3\n"), HasSubstr(".toml:1"));
+}
+
+TEST(Settings, AHugeFileIsRefused) {
+  Settings s;
+  const auto path = std::filesystem::path(::testing::TempDir()) / "saccade_huge.toml";
+  write_file(path, std::string((1 << 20) + 1, '#'));
+  EXPECT_THAT(error_of([&] { load_settings(s, path.string()); }, ExitStatus::unreadable),
+              HasSubstr("too large"));
 }
 
 std::string config_file(const char* name) { return std::string(SACCADE_SOURCE_DIR "/config/") + name; }

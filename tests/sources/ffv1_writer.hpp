@@ -20,4 +20,14 @@ struct Ffv1Options {
 void write_ffv1(const std::filesystem::path& path, const std::vector<cv::Mat1w>& images,
                 const Ffv1Options& options = {});
 
+struct Mpeg4Options {
+  int key_every = 1, b_frames = 0;
+  bool container_crc = true;
+  int turned_degrees = 0;  ///< as a phone notes how it was held; counterclockwise
+};
+
+/// Writes images of grey (16 = black, 235 = white) as MPEG-4 at 30 Hz.
+void write_mpeg4(const std::filesystem::path& path, const std::vector<cv::Mat1b>& images,
+                 const Mpeg4Options& options = {});
+
 }  // namespace saccade

@@ -263,6 +263,14 @@ TEST_F(FolderSourceTest, NumbersCanBeAsLargeAsIntegers) {
   EXPECT_GT(frame.timestamp_us, 0);
 }
 
+TEST_F(FolderSourceTest, OneNumberIsOneFrame) {
+  put_depth("1_depth.png", 1000);
+  put_depth("-2_depth.png", 1001);  // not a number of a frame
+  EXPECT_EQ(open_source(folder_.string())->info().frame_count, 1);
+  put_depth("0001_depth.png", 1002);
+  EXPECT_THAT(error(), HasSubstr("two depth images have the same number"));
+}
+
 TEST_F(FolderSourceTest, AHugeMetaFileIsRefusedBeforeItIsRead) {
   put_depth("0_depth.png", 1000);
   put_text("meta.json", std::string(2 << 20, '['));
@@ -284,7 +292,7 @@ TEST_F(FolderSourceTest, TumFolderIsPairedByTime) {
   put_text("rgb.txt", "# colour\n100.26 rgb/a.png\n100.60 rgb/a.png\n");
   const auto source = open_source(folder_.string());
   EXPECT_EQ(source->info().kind, "tum");
-  EXPECT_THAT(source->info().notes, ElementsAre("1 depth frames have no colour image within 20 ms"));
+  EXPECT_THAT(source->info().notes, ElementsAre("1 depth frame without a colour image within 20 ms"));
   Frame frame;
   ASSERT_EQ(source->read(frame, kNoWait).status, ReadStatus::frame);
   EXPECT_EQ(frame.depth_mm(0, 0), 1000.0F);
@@ -293,6 +301,21 @@ TEST_F(FolderSourceTest, TumFolderIsPairedByTime) {
   EXPECT_EQ(frame.timestamp_us, 250000);
   EXPECT_FLOAT_EQ(frame.depth_mm(0, 0), 500.2F);
   EXPECT_TRUE(frame.colour.empty());
+}
+
+// Of images as near in time as each other, the one before; of images of one time, the first of the list.
+TEST_F(FolderSourceTest, TiesInATumFolderHaveOneOutcome) {
+  put_depth("a.png", 5000);
+  for (const int k : {1, 2, 3, 4})
+    put(fmt::format("{}.png", k), cv::Mat3b(12, 16, cv::Vec3b::all(static_cast<std::uint8_t>(k))));
+  put_text("depth.txt", "10.5 a.png\n20.5 a.png\n");
+  put_text("rgb.txt", "10.4921875 1.png\n10.5078125 2.png\n20.4921875 3.png\n20.4921875 4.png\n");
+  const auto source = open_source(folder_.string());
+  Frame frame;
+  for (const int k : {1, 3}) {
+    ASSERT_EQ(source->read(frame, kNoWait).status, ReadStatus::frame);
+    EXPECT_EQ(frame.colour(0, 0)[0], k);
+  }
 }
 
 TEST_F(FolderSourceTest, BrokenTumListNamesTheLine) {

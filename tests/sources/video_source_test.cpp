@@ -11,10 +11,9 @@
 #include "core/png.hpp"
 #include "ffv1_writer.hpp"
 #include "matroska_writer.hpp"
-#include "sources/colour_video.hpp"
 #include "sources/open_source.hpp"
-#include "tests/support/folder_test.hpp"
 #include "tests/support/no_wait.hpp"
+#include "video_files.hpp"
 
 namespace saccade {
 namespace {
@@ -24,9 +23,6 @@ using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::Not;
-
-const cv::Size kSize(64, 48);
-constexpr int kFrames = 6;
 
 // Every one of the sixteen bits matters in these.
 cv::Mat1w depth_image(int k, cv::Size size = kSize) {
@@ -42,29 +38,12 @@ cv::Mat3b colour_image(int k, cv::Size size = kSize) {
   return {size, cv::Vec3b(static_cast<std::uint8_t>(30 * k), 100, static_cast<std::uint8_t>(250 - 30 * k))};
 }
 
-class VideoSourceTest : public FolderTest {
+class VideoSourceTest : public VideoFiles {
  protected:
-  VideoSourceTest() { quieten_video_libraries(); }
-  fs::path path(const std::string& name) const { return folder_ / name; }
-
   void write_ffv1(const std::string& name, const Ffv1Options& options = {}) const {
     std::vector<cv::Mat1w> images;
     for (int k = 0; k < kFrames; ++k) images.push_back(depth_image(k));
     saccade::write_ffv1(path(name), images, options);
-  }
-
-  // Cuts the file to this share of its bytes.
-  void cut(const std::string& name, double share) const {
-    const auto size = static_cast<double>(fs::file_size(path(name)));
-    fs::resize_file(path(name), static_cast<std::uintmax_t>(size * share));
-  }
-
-  // Overwrites bytes from `share` of the file on with zeros.
-  void damage(const std::string& name, double share, std::size_t bytes) const {
-    auto content = read_file(path(name));
-    const auto begin = static_cast<std::size_t>(static_cast<double>(content.size()) * share);
-    std::fill_n(content.begin() + static_cast<std::ptrdiff_t>(begin), bytes, std::uint8_t{0});
-    write_file(path(name), content);
   }
 
   void write_colour(const std::string& name, double rate_hz = 30, cv::Size size = kSize,
@@ -164,10 +143,6 @@ std::vector<ReadStatus> read_all(FrameSource& source) {
     EXPECT_EQ(cv::countNonZero(expected != frame.depth_mm), 0) << k;
   }
   return all;
-}
-
-std::ptrdiff_t rejected_of(const std::vector<ReadStatus>& all) {
-  return std::ranges::count(all, ReadStatus::rejected);
 }
 
 TEST_F(VideoSourceTest, ImagesThatATruncatedFileHasLostAreRejected) {

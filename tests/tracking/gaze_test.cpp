@@ -53,6 +53,13 @@ TEST(Gaze, AStrongNewObjectInterruptsAWeakOneComesNext) {
   EXPECT_EQ(look(gaze, 1.1, {{9, 2.1F, true}, {1, 1, false}, {2, 0.9F, false}, {8, 0.1F, true}}), 2);
 }
 
+TEST(Gaze, ANewObjectThatIsALittleStrongerWaitsForTheEndOfTheDwell) {
+  Gaze gaze({.dwell_s = 0.5, .return_after_s = 5});
+  EXPECT_EQ(look(gaze, 0, {{1, 1, false}}), 1);
+  EXPECT_EQ(look(gaze, 0.1, {{9, 1.9F, true}, {1, 1, false}}), 1);
+  EXPECT_EQ(look(gaze, 0.5, {{9, 1.9F, true}, {1, 1, false}}), 9);
+}
+
 TEST(Gaze, TimesCountNotCalls) {
   const Targets targets = {{1, 1, false}, {2, 0.9F, false}, {3, 0.8F, false}};
   Gaze every({}), some({});

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include "core/text.hpp"
 #include "ui/panels/widgets.hpp"
 
 namespace saccade {
@@ -90,7 +91,7 @@ void FixationPanel::draw(ViewContext& view) {
   }
   if (ImGui::Button("Copy as text")) {
     ImGui::SetClipboardText(fixation_text(fixations).c_str());
-    view.notify(fmt::format("Copied {} fixations", fixations.size()));
+    view.notify("Copied " + counted(fixations.size(), "fixation"));
   }
   log_place(view, "copy fixations");
   explain("Copies the table, with tabs between its columns");

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include "core/text.hpp"
 #include "ui/panels/panel_text.hpp"
 
 namespace saccade {
@@ -47,8 +48,7 @@ void draw_rates(const StageHistory& history, const PerformanceFacts& facts,
                  fmt::format("{} ms to draw (longest {})", milliseconds(*facts.window_last_ms),
                              milliseconds(*facts.window_worst_ms)),
                  *facts.window_worst_ms > 50 ? Tone::warning : Tone::plain);
-  labelled_row("computing",
-               fmt::format("{} worker{}, SIMD {}", facts.workers, facts.workers == 1 ? "" : "s", facts.simd));
+  labelled_row("computing", fmt::format("{}, SIMD {}", counted(facts.workers, "worker"), facts.simd));
   ImGui::EndTable();
 }
 
@@ -123,7 +123,7 @@ void explain_bar_under_pointer(const Plot& plot, const std::vector<StageHistory:
   if (back >= stacks.size()) return;
   const StageHistory::Stack& stack = stacks[stacks.size() - 1 - back];
   ImGui::BeginTooltip();
-  ImGui::TextUnformatted(back == 0 ? "the last frame" : fmt::format("{} frames ago", back).c_str());
+  ImGui::TextUnformatted(back == 0 ? "the last frame" : counted(back, "frame") + " ago".c_str());
   for (std::size_t i = stack.size(); i-- > 0;) {
     const float below = i == 0 ? 0 : stack[i - 1];
     swatch(series_colour(static_cast<int>(i)));

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "core/text.hpp"
 #include "models/model.hpp"
 #include "ui/panels/widgets.hpp"
 #include "ui/session/map_difference.hpp"
@@ -245,8 +246,9 @@ void explain_fixation(const Fixation& f, int rank) {
                                             f.position_mm.y, f.position_mm.z)
                               : "\nno depth there";
   if (f.proto_object.pixels > 0)
-    text += fmt::format("\nobject of {} pixels, {:.0f} x {:.0f} x {:.0f} mm", f.proto_object.pixels,
-                        f.proto_object.extent_mm.x, f.proto_object.extent_mm.y, f.proto_object.extent_mm.z);
+    text +=
+        fmt::format("\nobject of {}, {:.0f} x {:.0f} x {:.0f} mm", counted(f.proto_object.pixels, "pixel"),
+                    f.proto_object.extent_mm.x, f.proto_object.extent_mm.y, f.proto_object.extent_mm.z);
   text += "\nA click follows it from frame to frame";
   ImGui::SetTooltip("%s", text.c_str());
 }

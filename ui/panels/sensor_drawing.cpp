@@ -6,6 +6,7 @@
 #include <imgui.h>
 
 #include "core/file.hpp"
+#include "core/text.hpp"
 
 namespace saccade {
 namespace {
@@ -32,12 +33,10 @@ void draw_headline(const SensorFacts& facts, std::chrono::steady_clock::time_poi
     wrapped_text(connection.text, Tone::quiet);
   for (const std::string& note : connection.notes) wrapped_text(note, Tone::warning);
   if (connection.colourless > 0)
-    wrapped_text(fmt::format("{} frame{} without colour so far", connection.colourless,
-                             connection.colourless == 1 ? "" : "s"),
-                 Tone::warning);
+    wrapped_text(counted(connection.colourless, "frame") + " without colour so far", Tone::warning);
   if (connection.losses > 0)
-    wrapped_text(fmt::format("{} dropout{} so far, {} in total", connection.losses,
-                             connection.losses == 1 ? "" : "s", seconds_text(connection.away_s)),
+    wrapped_text(fmt::format("{} so far, {} in total", counted(connection.losses, "dropout"),
+                             seconds_text(connection.away_s)),
                  Tone::warning);
 }
 
@@ -185,8 +184,9 @@ Headline recording_line(const RecordingStatus& recording) {
                      : recording.phase == Phase::closing ? "Closing the file"
                      : recording.error.empty()           ? "Recorded"
                                                          : "Ended early";
-  std::string text = fmt::format("{}: {}, {} frames, {}", what, seconds_text(recording.seconds),
-                                 recording.frames, megabytes(static_cast<double>(recording.bytes)));
+  std::string text =
+      fmt::format("{}: {}, {}, {}", what, seconds_text(recording.seconds), counted(recording.frames, "frame"),
+                  megabytes(static_cast<double>(recording.bytes)));
   text += fmt::format(", {} dropped", recording.dropped);
   const bool trouble = recording.dropped > 0 || !recording.error.empty();
   return {text, trouble ? Tone::warning : recording.phase == Phase::recording ? Tone::good : Tone::plain};

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include "core/text.hpp"
 #include "ui/panels/panels.hpp"
 #include "ui/panels/widgets.hpp"
 
@@ -23,7 +24,7 @@ std::string source_line(const ViewContext& view) {
     return line;
   }
   const std::string size = fmt::format("{} × {}", s.source.size.width, s.source.size.height);
-  return s.source.frame_count ? fmt::format("{}, {} frames", size, *s.source.frame_count) : size;
+  return s.source.frame_count ? fmt::format("{}, {}", size, counted(*s.source.frame_count, "frame")) : size;
 }
 
 ImVec4 state_colour(const ViewContext& view) {

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <opencv2/core.hpp>
+
+#include "core/file.hpp"
+#include "core/frame_source.hpp"
+#include "tests/support/folder_test.hpp"
+
+namespace saccade {
+
+inline const cv::Size kSize(64, 48);
+inline constexpr int kFrames = 6;
+
+/// Tests of videos in a folder of their own, which they can damage.
+class VideoFiles : public FolderTest {
+ protected:
+  std::filesystem::path path(const std::string& name) const { return folder_ / name; }
+
+  // Cuts the file to this share of its bytes.
+  void cut(const std::string& name, double share) const {
+    const auto size = static_cast<double>(std::filesystem::file_size(path(name)));
+    std::filesystem::resize_file(path(name), static_cast<std::uintmax_t>(size * share));
+  }
+
+  // Overwrites bytes from `share` of the file on with zeros.
+  void damage(const std::string& name, double share, std::size_t bytes) const {
+    auto content = read_file(path(name));
+    const auto begin = static_cast<std::size_t>(static_cast<double>(content.size()) * share);
+    std::fill_n(content.begin() + static_cast<std::ptrdiff_t>(begin), bytes, std::uint8_t{0});
+    write_file(path(name), content);
+  }
+};
+
+inline std::ptrdiff_t rejected_of(const std::vector<ReadStatus>& all) {
+  return std::ranges::count(all, ReadStatus::rejected);
+}
+
+}  // namespace saccade
