@@ -23,6 +23,7 @@
 #include "app/devices_command.hpp"
 #include "app/doctor_command.hpp"
 #include "app/eval_command.hpp"
+#include "app/export_command.hpp"
 #include "app/oni_command.hpp"
 #include "app/record_command.hpp"
 #include "app/run_command.hpp"
@@ -76,6 +77,7 @@ int run_program(int argc, char** argv) {
   saccade::add_view_command(app, action);
   saccade::add_run_command(app, action, {argv, argv + argc});
   saccade::add_record_command(app, action);
+  saccade::add_export_command(app, action);
   saccade::add_devices_command(app, action);
   saccade::add_doctor_command(app, action);
   saccade::add_eval_command(app, action);

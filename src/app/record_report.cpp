@@ -15,6 +15,7 @@ nlohmann::ordered_json record_json(const RecordReport& report) {
                                  {"frames", report.counts.frames},
                                  {"dropped", report.counts.dropped},
                                  {"rejected", report.rejected},
+                                 {"incomplete", report.incomplete.count()},
                                  {"rounded", report.counts.rounded},
                                  {"most_unsynced", report.counts.most_unsynced},
                                  {"bytes", report.bytes},
@@ -40,6 +41,7 @@ void report_losses(const RecordReport& report) {
   if (report.rejected > 0)
     spdlog::warn("{}: {} frame{} rejected, the first, {}", report.source, report.rejected,
                  report.rejected == 1 ? "" : "s", report.first_rejected);
+  report_incomplete(report.source, report.incomplete);
   if (report.counts.rounded > 0)
     spdlog::warn("{}: depth of {} frames was rounded to the unit of the file, by at most {:.3g} mm",
                  report.file, report.counts.rounded, report.counts.largest_rounding_mm);

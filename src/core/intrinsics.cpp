@@ -29,7 +29,7 @@ Intrinsics Intrinsics::at_level(int level) const {
 
 Intrinsics Intrinsics::guess_for(cv::Size size) {
   const double scale = size.width / 640.0;
-  return {525 * scale, 525 * scale, 319.5 * scale, 239.5 * scale, IntrinsicsOrigin::guess};
+  return {525 * scale, 525 * scale, (size.width - 1) / 2.0, (size.height - 1) / 2.0, IntrinsicsOrigin::guess};
 }
 
 Intrinsics Intrinsics::from_field_of_view(cv::Size size, double horizontal_rad, double vertical_rad,
