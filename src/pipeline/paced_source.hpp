@@ -39,6 +39,8 @@ class PacedSource final : public FrameSource {
   void go_to_wanted();
   void seek_unknown_end();
   ReadResult fetch(Lock& lock);
+  std::int64_t nearest(std::int64_t index) const;
+  bool leaves_part() const;
   ReadResult turn_at_end();
   bool is_due(Time& when);
   ReadResult give(Lock& lock, Frame& frame);
@@ -56,6 +58,7 @@ class PacedSource final : public FrameSource {
   bool going_ = true;        // the next frame is given at once, whatever its time, and in a pause too
   bool to_end_ = false;      // reads on, without giving frames, to a last frame whose index is not known yet
   bool any_usable_ = false;  // since the start of this turn of the loop
+  bool jumped_ = false;      // since the frame given last
   Frame ahead_, last_;
   Time last_due_{}, due_{};   // of the frame given last, of the one read ahead
   bool interrupted_ = false;  // guarded by the mutex of playback_, as are all members above

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "tracking/cell_projection.hpp"
+#include "tracking/object_merging.hpp"
 
 namespace saccade {
 namespace {
@@ -92,8 +93,9 @@ TrackedObject& AttentionOrder::stands_for(int cell, const ObjectShapes& shapes, 
   if (TrackedObject* owner = objects_->of_owner(surfaces_->owner()[at(cell)])) return *owner;
   const int segment = view_->segments.of_cell()[at(cell)];
   const bool whole = segment != SurfaceSegments::kNone && !view_->segments.is_supporting_plane(segment);
-  if (!whole || shapes.segment(segment).claimant < 0) return new_candidate(cell, shapes, proto_objects);
-  TrackedObject& object = objects_->slots()[at(shapes.segment(segment).claimant)];
+  const int slot = whole ? slot_of(segment, cell, shapes) : -1;
+  if (slot < 0) return new_candidate(cell, shapes, proto_objects);
+  TrackedObject& object = objects_->slots()[at(slot)];
   for (int other : proto_objects.around(cell)) {
     int& owner = surfaces_->owner()[at(other)];
     if (owner != SurfaceMemory::kNobody) continue;
@@ -101,6 +103,18 @@ TrackedObject& AttentionOrder::stands_for(int cell, const ObjectShapes& shapes, 
     object.cells.push_back(other);
   }
   return object;
+}
+
+// Of the object that a segment belongs to: one that has a good part of its cells there, or one that most of
+// the segment's cells come from, if it is convex from its anchor to the winning cell: the segment was cut
+// off.
+int AttentionOrder::slot_of(int segment, int cell, const ObjectShapes& shapes) const {
+  const ObjectShapes::Segment& facts = shapes.segment(segment);
+  if (facts.claimant >= 0 || facts.part_of < 0) return facts.claimant;
+  const TrackedObject& object = objects_->slots()[at(facts.part_of)];
+  const bool one =
+      object.alive && object.anchor_cell >= 0 && convex_between(view_->grid, object.anchor_cell, cell);
+  return one ? facts.part_of : -1;
 }
 
 TrackedObject& AttentionOrder::new_candidate(int cell, const ObjectShapes& shapes,
@@ -210,8 +224,8 @@ int AttentionOrder::stand_in(const TrackedObject& object) const {
   double nearest = kStandInCells * kStandInCells;
   int best = -1;
   for (int cell : object.cells) {
-    const double down = cell / view_->grid.cols() - place->row,
-                 right = cell % view_->grid.cols() - place->col;
+    const int row = cell / view_->grid.cols(), col = cell % view_->grid.cols();
+    const double down = row - place->row, right = col - place->col;
     if (down * down + right * right >= nearest) continue;
     nearest = down * down + right * right;
     best = cell;

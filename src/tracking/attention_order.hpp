@@ -69,6 +69,7 @@ class AttentionOrder {
   TrackedObject* expected();
   void rank_the_rest();
   TrackedObject& stands_for(int cell, const ObjectShapes& shapes, ProtoObjects& proto_objects);
+  int slot_of(int segment, int cell, const ObjectShapes& shapes) const;
   TrackedObject& new_candidate(int cell, const ObjectShapes& shapes, ProtoObjects& proto_objects);
   bool confirm(TrackedObject& object);
   void take(TrackedObject& object, const ProtoObjects& proto_objects);

@@ -11,11 +11,21 @@
 namespace saccade {
 
 AttentionTracker::AttentionTracker(int fixations, double min_confidence, const TrackingSettings& settings)
-    : fixations_(fixations),
-      min_confidence_(min_confidence),
-      objects_(settings.memory_s),
-      gaze_({settings.dwell_s, settings.return_after_s}) {
+    : objects_(settings.memory_s), gaze_({settings.dwell_s, settings.return_after_s}) {
+  configure(fixations, min_confidence, settings);
+}
+
+void AttentionTracker::configure(int fixations, double min_confidence, const TrackingSettings& settings) {
   if (fixations < 1) throw std::invalid_argument("AttentionTracker: at least one fixation");
+  fixations_ = fixations;
+  min_confidence_ = min_confidence;
+  objects_.set_memory(settings.memory_s);
+  gaze_.set_timing({settings.dwell_s, settings.return_after_s});
+}
+
+void AttentionTracker::forget_evidence() {
+  memory_.forget_means();
+  for (TrackedObject& object : objects_.slots()) object.times_judged = 0;
 }
 
 void AttentionTracker::attend(const Frame& frame, const cv::Mat1f& saliency, const FrameSurfaces& surfaces,
@@ -26,6 +36,7 @@ void AttentionTracker::attend(const Frame& frame, const cv::Mat1f& saliency, con
   if (step.cut) {
     memory_.clear();
     objects_.clear();
+    merging_.clear();
     gaze_.clear();
     last_us_.reset();
   }
@@ -45,6 +56,7 @@ void AttentionTracker::attend(const Frame& frame, const cv::Mat1f& saliency, con
   objects_.correct(step.world_correction);
   objects_.predict(grid, from_world);
   shapes_.claim(grid, segments, step.to_world, seconds, objects_, memory_);
+  merging_.merge(grid, segments, seconds, objects_, memory_);
 
   // Order
   proto_objects_.begin(grid, segments, frame.depth_mm, frame.intrinsics);

@@ -12,6 +12,7 @@
 #include "tracking/camera_motion.hpp"
 #include "tracking/gaze.hpp"
 #include "tracking/object_memory.hpp"
+#include "tracking/object_merging.hpp"
 #include "tracking/object_shapes.hpp"
 #include "tracking/surface_memory.hpp"
 #include "tracking/tracking_settings.hpp"
@@ -19,7 +20,8 @@
 namespace saccade {
 
 /// Attention over time: ProtoSelector with a memory. A pure function of the frames so far: no threads, no
-/// clocks. Keeps its memory between frames. Thread safety: one call at a time per object.
+/// clocks. A copy goes on from the same memory. Keeps its memory between frames. Thread safety: one call at a
+/// time per object.
 class AttentionTracker {
  public:
   /// How far the mean over time of an object's confidence must be from the confidence reported for it to be
@@ -29,6 +31,13 @@ class AttentionTracker {
   /// fixations: the greatest number per frame. min_confidence: 0..1, objects below it are remembered but not
   /// reported. Throws std::invalid_argument unless there is at least one fixation.
   AttentionTracker(int fixations, double min_confidence, const TrackingSettings& settings);
+
+  /// The same settings as those of the constructor, from the next frame on.
+  void configure(int fixations, double min_confidence, const TrackingSettings& settings);
+
+  /// The next map is not comparable with those so far (another model): means over time begin again with it.
+  /// Objects, their order and the gaze stay.
+  void forget_evidence();
 
   /// Chooses the attention points of the next frame. `surfaces` are the frame's, `step` is how the camera
   /// has moved (CameraMotion). Times of frames must not decrease without a cut. `saliency` and
@@ -45,13 +54,14 @@ class AttentionTracker {
   cv::Point point_of(const AttentionOrder::View& view, const TrackedObject& object) const;
   void look(std::int64_t time_us, const std::vector<std::size_t>& chosen, SequenceState& sequence);
 
-  int fixations_;
-  double min_confidence_;
+  int fixations_ = 1;
+  double min_confidence_ = 0;
   std::optional<std::int64_t> last_us_;
   std::vector<float> scratch_, smooth_, values_;
   SurfaceMemory memory_;
   ObjectMemory objects_;
   ObjectShapes shapes_;
+  ObjectMerging merging_;
   ProtoObjects proto_objects_;
   AttentionOrder order_;
   Gaze gaze_;

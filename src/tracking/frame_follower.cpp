@@ -4,8 +4,8 @@ namespace saccade {
 
 FrameFollower::FrameFollower() : job_([this] { follow(); }) {}
 
-void FrameFollower::start(const Frame& frame) {
-  if (frame.index <= last_index_ || frame.timestamp_us < last_us_) motion_.restart();
+void FrameFollower::start(const Frame& frame, bool jumped) {
+  if (jumped || frame.index <= last_index_ || frame.timestamp_us < last_us_) motion_.restart();
   last_index_ = frame.index;
   last_us_ = frame.timestamp_us;
   frame_ = &frame;

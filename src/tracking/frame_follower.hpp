@@ -15,8 +15,8 @@ class FrameFollower {
   FrameFollower();
 
   /// Starts on the next frame, which must stay as it is until wait(). A frame whose index or time does not
-  /// follow those of the last one is a cut: the source has jumped.
-  void start(const Frame& frame);
+  /// follow those of the last one is a cut, and so is one before which the source has `jumped`.
+  void start(const Frame& frame, bool jumped = false);
 
   /// Waits until the frame is done. Rethrows what OpenCV threw.
   void wait() { job_.wait(); }

@@ -28,6 +28,7 @@ class Gaze {
   };
 
   explicit Gaze(const Timing& timing) : timing_(timing) {}
+  void set_timing(const Timing& timing) { timing_ = timing; }
 
   /// The id that is looked at in a frame at `time_us`, which does not decrease from call to call. `targets`:
   /// what the frame reports, in the order of attention. Where all others were looked at lately, the gaze

@@ -22,6 +22,8 @@ class ObjectMemory {
   /// memory_s: how long an object that is not reported is remembered.
   explicit ObjectMemory(double memory_s) : memory_s_(memory_s) {}
 
+  void set_memory(double memory_s) { memory_s_ = memory_s; }
+
   /// Forgets all objects; their ids are not used again.
   void clear();
 

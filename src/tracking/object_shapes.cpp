@@ -145,8 +145,9 @@ void ObjectShapes::choose_segments(ObjectMemory& objects, double seconds) {
 void ObjectShapes::add_claims(const TrackedObject& object, int slot) {
   for (int segment = 0; segment < segments_->count(); ++segment) {
     const int shared = overlap_[at(segment)];
-    if (shared == 0 || shared < kGoodPart * static_cast<double>(object.cells.size())) continue;
     Segment& facts = facts_[at(segment)];
+    if (2 * shared > facts.cells) facts.part_of = slot;
+    if (shared == 0 || shared < kGoodPart * static_cast<double>(object.cells.size())) continue;
     ++facts.claims;
     if (shared <= facts.claimant_cells) continue;
     facts.claimant = slot;

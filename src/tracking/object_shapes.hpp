@@ -42,6 +42,7 @@ class ObjectShapes {
     double area_mm2 = 0;
     int claims = 0;                         ///< objects with an id that have a good part of their cells in it
     int claimant = -1, claimant_cells = 0;  ///< slot of the one with the most cells in it, -1 = none
+    int part_of = -1;                       ///< slot of the object that most of its cells were carried from
     bool taken = false;                     ///< it is the shape of one object
   };
   const Segment& segment(int number) const { return facts_[static_cast<std::size_t>(number)]; }

@@ -16,6 +16,10 @@ double SurfaceMemory::share_of(double seconds) { return 1 - std::exp(-seconds / 
 
 void SurfaceMemory::clear() { empty_ = true; }
 
+void SurfaceMemory::forget_means() {
+  std::fill(now_.age.begin(), now_.age.end(), -1);  // carry() adds 1
+}
+
 void SurfaceMemory::carry(const SurfaceGrid& grid, const cv::Affine3d& to_previous) {
   std::swap(now_, last_);
   now_.depth_mm = grid.depth_mm();

@@ -34,6 +34,9 @@ class SurfaceMemory {
   /// Forgets all cells.
   void clear();
 
+  /// Forgets the means alone: they begin again with the next values.
+  void forget_means();
+
   /// Brings the memory to the cells of `grid`. `to_previous`: motion from this camera to that of the frame of
   /// the last call, mm; is not read after clear().
   void carry(const SurfaceGrid& grid, const cv::Affine3d& to_previous);

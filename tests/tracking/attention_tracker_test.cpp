@@ -201,6 +201,63 @@ TEST_F(AttentionTrackerTest, AfterACutIdsGoOnCounting) {
   }
 }
 
+TEST_F(AttentionTrackerTest, AGapInTimeIsNoCutWhereTheSceneIsTheSame) {
+  watch({});
+  for (int k = 0; k < 6; ++k) see(k);
+  const std::map<int, int> before = ids();
+  see(250);  // 8 s later: the sensor was unplugged
+  EXPECT_FALSE(attention_.sequence->cut);
+  EXPECT_EQ(ids(), before);
+}
+
+TEST_F(AttentionTrackerTest, FramesThatWereDroppedAreTimeThatPassed) {
+  watch({});
+  see(0);
+  const auto first = attention_.sequence->gaze;
+  see(10);
+  EXPECT_EQ(attention_.sequence->gaze, first) << "a third of a second";
+  see(16);
+  EXPECT_NE(attention_.sequence->gaze, first) << "half a second";
+}
+
+TEST_F(AttentionTrackerTest, AJumpOfTheSourceIsACut) {
+  watch({});
+  see(0);
+  see(1);
+  frame_ = &scene_->frame(40);
+  follower_->start(*frame_, true);
+  follower_->wait();
+  EXPECT_TRUE(follower_->step().cut);
+}
+
+TEST_F(AttentionTrackerTest, ACopyGoesOnFromTheSameMemory) {
+  watch({.camera = scene::CameraPath::walk}, 8);
+  for (int k = 0; k < 8; ++k) see(k);
+  const AttentionTracker before = *tracker_;
+  const Attention first = see(8);
+  *tracker_ = before;
+  tracker_->attend(*frame_, cv::Mat1f(frame_->size(), 1.0F), follower_->surfaces(), follower_->step(),
+                   attention_);
+  *tracker_ = before;
+  tracker_->attend(*frame_, scene_->saliency(0.1F, 0.3), follower_->surfaces(), follower_->step(),
+                   attention_);
+  EXPECT_EQ(attention_.sequence->gaze, first.sequence->gaze);
+  ASSERT_EQ(attention_.fixations.size(), first.fixations.size());
+  for (std::size_t i = 0; i < first.fixations.size(); ++i)
+    EXPECT_EQ(attention_.fixations[i].id, first.fixations[i].id);
+}
+
+TEST_F(AttentionTrackerTest, WithoutEvidenceObjectsAndTheirOrderStay) {
+  watch({}, 8);
+  for (int k = 0; k < 8; ++k) see(k);
+  const std::map<int, int> before = ids();
+  tracker_->forget_evidence();
+  tracker_->configure(3, 0, {});
+  see(8);
+  ASSERT_EQ(attention_.fixations.size(), 3U);
+  for (const auto& [label, id] : ids()) EXPECT_EQ(id, before.at(label));
+}
+
 TEST_F(AttentionTrackerTest, OrderChangesByAMarginOnly) {
   watch({.noise = false}, 3);
   see(0, 0, 0.1F);

@@ -103,6 +103,17 @@ TEST_F(SurfaceMemoryTest, KnowsNothingWithoutReadingsAndBeyondTheImage) {
   EXPECT_EQ(memory_.before()[cell(3, 3)], SurfaceMemory::Before::same);
 }
 
+TEST_F(SurfaceMemoryTest, MeansAloneCanBeForgotten) {
+  for (int k = 0; k < 5; ++k) see(wall(1000), constant(3));
+  memory_.owner()[cell(10, 20)] = 7;
+  memory_.forget_means();
+  see(wall(1000), constant(8));
+  EXPECT_EQ(memory_.mean()[cell(10, 20)], 8);
+  EXPECT_EQ(memory_.age()[cell(10, 20)], 0);
+  EXPECT_EQ(memory_.owner()[cell(10, 20)], 7);
+  EXPECT_EQ(memory_.before()[cell(10, 20)], SurfaceMemory::Before::same);
+}
+
 TEST_F(SurfaceMemoryTest, ClearForgets) {
   see(wall(1000), constant(4));
   memory_.clear();

@@ -33,11 +33,13 @@ OverlayShapes overlay_shapes(const Computed& computed, const OverlayStyle& style
   if (style.outlines)
     for (const Outline& outline : computed.outlines) {
       std::vector<cv::Point2f> points;
+      points.reserve(outline.points.size());
       for (const cv::Point& p : outline.points) points.push_back(place(view, p.x, p.y));
       add_line(shapes, std::move(points), true, width, colour_of(fixations, outline.rank));
     }
   if (style.path && fixations.size() > 1) {
     std::vector<cv::Point2f> path;
+    path.reserve(fixations.size());
     for (const Fixation& f : fixations) path.push_back(place(view, f.col, f.row));
     add_line(shapes, std::move(path), false, width, {255, 255, 255, 190});
   }
