@@ -61,6 +61,11 @@ void fit_to_depth(Settings& settings, SourceInfo& source) {
   source.notes.emplace_back("the selector proto needs depth; wta chooses the points");
 }
 
+std::optional<std::int64_t> expected_frames(const SourceInfo& source, const FrameSettings& settings) {
+  if (source.frame_count) return selected_frames(settings, *source.frame_count);
+  return settings.frames > 0 ? std::optional(settings.frames) : std::nullopt;
+}
+
 void make_output_folder(const fs::path& folder) {
   if (folder == "-")
     throw usage_error("the files of a run cannot go to standard output", "--out -", "name a folder");

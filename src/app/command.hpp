@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <optional>
 
 #include "core/frame_source.hpp"
 #include "settings/settings.hpp"
@@ -25,6 +27,9 @@ void fit_default_levels(Settings& settings, SourceInfo& source);
 /// For a source without depth: throws Error (usage) if the model needs depth, and replaces the selector
 /// `proto`, which needs it too, by `wta`, adding a note about it to the source.
 void fit_to_depth(Settings& settings, SourceInfo& source);
+
+/// The number of frames to come, if that can be known.
+std::optional<std::int64_t> expected_frames(const SourceInfo& source, const FrameSettings& settings);
 
 /// Makes the folder of --out if it does not exist. Throws Error (failed).
 void make_output_folder(const std::filesystem::path& folder);

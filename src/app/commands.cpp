@@ -4,6 +4,7 @@
 #include "app/devices_command.hpp"
 #include "app/doctor_command.hpp"
 #include "app/eval_command.hpp"
+#include "app/export_command.hpp"
 #include "app/oni_command.hpp"
 #include "app/record_command.hpp"
 #include "app/run_command.hpp"
@@ -21,6 +22,7 @@ void add_commands(CLI::App& app, std::function<void()>& action,
   add_view_command(app, action);
   add_run_command(app, action, command_line);
   add_record_command(app, action);
+  add_export_command(app, action);
   add_devices_command(app, action);
   add_doctor_command(app, action);
   add_eval_command(app, action);

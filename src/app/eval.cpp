@@ -118,10 +118,10 @@ void write_report(const StoredResults& results, FrameSource* source, const fs::p
 
 // The data set that results name, for the examples; nullptr, with a warning, if it cannot be opened. The
 // results may be those of somebody else: no device is opened.
-std::unique_ptr<FrameSource> open_data_set(const std::string& uri) {
+std::unique_ptr<FrameSource> open_data_set(const std::string& uri, const InputSettings& settings) {
   try {
     if (names_device(uri)) throw unreadable("it is a device", uri, "");
-    return open_source(uri);
+    return open_source(uri, {{}, settings});
   } catch (const Error& error) {
     spdlog::warn("no pictures of examples: {}", error.what());
     return nullptr;
@@ -133,7 +133,7 @@ std::unique_ptr<FrameSource> open_data_set(const std::string& uri) {
 void eval(const EvalArguments& arguments, const Settings& settings) {
   cv::setNumThreads(1);  // OpenCV must not start threads besides ours
   Interrupt interrupt;
-  const auto source = open_source(arguments.dataset);
+  const auto source = open_source(arguments.dataset, {settings.sensor, settings});
   SourceInfo info = source->info();
   Settings fitting = settings;
   fit_default_levels(fitting, info);
@@ -165,7 +165,7 @@ void eval_merge(const EvalArguments& arguments, const Settings& settings) {
   cv::setNumThreads(1);
   Interrupt interrupt;
   const StoredResults results = merge_results({arguments.merge.begin(), arguments.merge.end()});
-  const auto source = open_data_set(results.plan.dataset);
+  const auto source = open_data_set(results.plan.dataset, results.plan.settings);
   const fs::path out = arguments.out;
   make_output_folder(out);
   const FolderLock lock(out, "saccade eval --merge");

@@ -56,7 +56,7 @@ void write_results(const fs::path& out, const EvalArguments& arguments, const Se
 void eval_over_time(const EvalArguments& arguments, const Settings& settings) {
   cv::setNumThreads(1);  // the threads are ours to count
   Interrupt interrupt;
-  const auto source = open_source(arguments.dataset);
+  const auto source = open_source(arguments.dataset, {settings.sensor, settings});
   SourceInfo info = source->info();
   if (info.live || !info.frame_count)
     throw usage_error("not a data set", info.uri,

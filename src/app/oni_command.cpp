@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <stdexcept>
 #include <string>
 
 #include <fmt/format.h>
@@ -141,13 +142,33 @@ void oni_repair(const std::string& file, const std::string& name, bool force, bo
   }
 }
 
+void oni_cut(const std::string& file, const std::string& piece, const std::string& to, bool force,
+             bool json) {
+  OniPiece parsed;
+  try {
+    parsed = parse_piece(piece);
+  } catch (const std::invalid_argument& expected) {
+    throw usage_error("not a piece of a recording", piece, fmt::format("expected {}", expected.what()));
+  }
+  const OniRepairReport report = cut_recording(file, to, parsed, force);
+  if (json)
+    print_json(Json{{"file", file},
+                    {"piece", piece},
+                    {"to", to},
+                    {"frames", report.frames},
+                    {"bad_frames", report.bad_frames}});
+  else
+    print_text(fmt::format("{}: {} frames of all streams copied, {} bad frames left out\n", to, report.frames,
+                           report.bad_frames));
+}
+
 void add_oni_command(CLI::App& app, std::function<void()>& action) {
   struct Arguments {
-    std::string file, to;
+    std::string file, to, piece;
     bool json = false, force = false;
   };
   const auto a = std::make_shared<Arguments>();
-  CLI::App& oni = *app.add_subcommand("oni", "inspect, check or repair an .oni recording");
+  CLI::App& oni = *app.add_subcommand("oni", "inspect, check, repair or cut an .oni recording");
   oni.require_subcommand(1);
   const auto add = [&](const char* name, const char* help) {
     CLI::App& command = *oni.add_subcommand(name, help);
@@ -164,6 +185,12 @@ void add_oni_command(CLI::App& app, std::function<void()>& action) {
   repair->add_option("TO,--out", a->to, "the new file; without it, FILE with the ending .repaired.oni");
   repair->add_flag("--force", a->force, "replace TO if it exists");
   repair->callback([a, &action] { action = [a] { oni_repair(a->file, a->to, a->force, a->json); }; });
+  CLI::App* cut = add("cut", "copy a piece to a new file, bit for bit");
+  cut->add_option("PIECE", a->piece, "FROM..TO, both included: frame numbers (10..20) or seconds (1.5s..3s)")
+      ->required();
+  cut->add_option("TO,--out", a->to, "the new file")->required();
+  cut->add_flag("--force", a->force, "replace TO if it exists");
+  cut->callback([a, &action] { action = [a] { oni_cut(a->file, a->piece, a->to, a->force, a->json); }; });
 }
 
 }  // namespace saccade

@@ -18,7 +18,11 @@ void oni_check(const std::string& file, bool json);
 /// NAME.repaired.oni beside the original. Throws Error.
 void oni_repair(const std::string& file, const std::string& to, bool force, bool json);
 
-/// Adds `saccade oni` with its three subcommands to `app`; parsing one sets `action` to it.
+/// `saccade oni cut`: copies the piece "FROM..TO" (parse_piece()) of `file` to the new file `to`. Throws
+/// Error.
+void oni_cut(const std::string& file, const std::string& piece, const std::string& to, bool force, bool json);
+
+/// Adds `saccade oni` with its four subcommands to `app`; parsing one sets `action` to it.
 void add_oni_command(CLI::App& app, std::function<void()>& action);
 
 }  // namespace saccade

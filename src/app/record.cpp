@@ -57,8 +57,9 @@ class RecordRun {
 
   void execute() {
     check_file();
-    const auto source = open_source(arguments_.source, settings_.sensor);
+    const auto source = open_source(arguments_.source, {settings_.sensor, settings_});
     const SourceInfo& info = source->info();
+    check_start(info, settings_.start);
     for (const std::string& note : info.notes) spdlog::warn("{}: {}", info.uri, note);
     live_ = info.live;
     const Interrupt::Handler handler(interrupt_, [&] { source->interrupt(); });
@@ -121,15 +122,21 @@ class RecordRun {
       report_state(state);
     });
     Frame frame;
+    if (!live_ && settings_.start > 0) source.seek(settings_.start);
+    std::int64_t wanted = settings_.start;
     while (!interrupt_.happened() && !reached_limit()) {
       const ReadResult result = source.read(frame, kReadTimeout);
       progress.update(static_cast<std::int64_t>(recorder.counts().frames),
                       [&] { return disk_text(recorder, arguments_.file); });
       if (result.status == ReadStatus::end) return;
       notifier.after_read(result.status);
+      if (result.status == ReadStatus::timeout || frame.index < wanted) continue;
+      wanted = (live_ ? frame.index : wanted) + settings_.every;
+      if (!live_ && settings_.every > 1) source.seek(wanted);
       if (result.status == ReadStatus::rejected && report_.rejected++ == 0)
         report_.first_rejected = fmt::format("frame {}: {}", frame.index, result.reason);
       if (result.status != ReadStatus::frame) continue;
+      if (!result.reason.empty() && !live_) report_.incomplete.add(frame.index, result.reason);
       if (taken_ == 0) first_us_ = frame.timestamp_us;
       if (arguments_.duration_s > 0 && recorded_s(frame) >= arguments_.duration_s) return;
       ++taken_;

@@ -31,7 +31,7 @@ void add_file_options(CLI::App& command, OniWriterOptions& options) {
       {{"jpeg", OniColourCodec::jpeg}, {"none", OniColourCodec::none}, {"off", OniColourCodec::off}},
       "jpeg (lossy), none (uncompressed) or off (no colour) [jpeg]");
   add_choice<OniDepthUnit>(
-      command, "--depth-unit", "UNIT", options.depth_unit,
+      command, "--stored-unit", "UNIT", options.depth_unit,
       {{"auto", OniDepthUnit::automatic}, {"1mm", OniDepthUnit::mm1}, {"100um", OniDepthUnit::um100}},
       "step of the stored depth: 1mm, 100um, or auto (100um if the first frame has fractions of 1 mm) "
       "[auto]");
@@ -51,7 +51,8 @@ void add_record_command(CLI::App& app, std::function<void()>& action) {
       ->check(CLI::Range(0.0, 1e9));
   add_file_options(command, arguments->options);
   const auto options = std::make_shared<SettingsOptions>(
-      command, AcceptedSettings{{SettingScope::sensor}, {"frames", "json", "quiet"}});
+      command, AcceptedSettings{{SettingScope::sensor},
+                                {"frames", "start", "every", "depth-unit", "topics", "json", "quiet"}});
   command.callback([arguments, options, &action] {
     action = [arguments, options] {
       const Settings settings = options->resolve();

@@ -16,6 +16,7 @@ nlohmann::ordered_json record_json(const RecordReport& report) {
                                  {"frames", report.counts.frames},
                                  {"dropped", report.counts.dropped},
                                  {"rejected", report.rejected},
+                                 {"incomplete", report.incomplete.count()},
                                  {"rounded", report.counts.rounded},
                                  {"most_unsynced", report.counts.most_unsynced},
                                  {"bytes", report.bytes},
@@ -40,6 +41,7 @@ void report_losses(const RecordReport& report) {
   if (report.rejected > 0)
     spdlog::warn("{}: {} rejected, the first, {}", report.source, counted(report.rejected, "frame"),
                  report.first_rejected);
+  report_incomplete(report.source, report.incomplete);
   if (report.counts.rounded > 0)
     spdlog::warn("{}: depth of {} was rounded to the unit of the file, by at most {:.3g} mm", report.file,
                  counted(report.counts.rounded, "frame"), report.counts.largest_rounding_mm);

@@ -6,6 +6,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "app/frame_problems.hpp"
 #include "core/frame_source.hpp"
 #include "oni/writer.hpp"
 
@@ -17,6 +18,7 @@ struct RecordReport {
   bool interrupted = false;
   std::int64_t rejected = 0;   ///< frames of the source that could not be used
   std::string first_rejected;  ///< "frame 7: why"
+  FrameProblems incomplete;    ///< frames without colour that the source should have had
   OniWriterCounts counts;
   std::optional<SourceState> device;  ///< state of a live source at the end
   std::uint64_t bytes = 0;            ///< size of the file

@@ -14,6 +14,7 @@
 #include <opencv2/core.hpp>
 
 #include "app/command.hpp"
+#include "app/export_report.hpp"
 #include "app/interrupt.hpp"
 #include "app/progress.hpp"
 #include "app/run_report.hpp"
@@ -23,9 +24,11 @@
 #include "core/folder_lock.hpp"
 #include "core/text.hpp"
 #include "models/model.hpp"
+#include "output/dataset_writer.hpp"
 #include "output/fixations_json.hpp"
 #include "output/frame_writer.hpp"
 #include "output/json_text.hpp"
+#include "output/line_stream.hpp"
 #include "output/writer_pool.hpp"
 #include "pipeline/pipeline.hpp"
 #include "sources/open_source.hpp"
@@ -40,12 +43,6 @@ constexpr int kSlotsInFlight = 4;  // one captured, one computed, one waiting at
 constexpr int kWriterThreads = 2;
 constexpr std::size_t kRejectedListed = 10'000;  // so that hours with a bad sensor do not fill the memory
 
-// The number of frames to come, if that can be known.
-std::optional<std::int64_t> expected_frames(const SourceInfo& source, const FrameSettings& settings) {
-  if (source.frame_count) return selected_frames(settings, *source.frame_count);
-  return settings.frames > 0 ? std::optional(settings.frames) : std::nullopt;
-}
-
 // One `saccade run`, from open source to manifest.
 class Run {
  public:
@@ -58,6 +55,7 @@ class Run {
 
   void execute(const std::string& uri) {
     auto source = open(uri);
+    open_stream();
     auto processor = make_processor(processor_options());
     make_output_folder(folder_);
     const FolderLock lock(folder_, "saccade run");
@@ -68,7 +66,9 @@ class Run {
     try {
       process(std::move(source), std::move(processor));
       check_any_processed();
-      report_.status = interrupt_.happened() ? "interrupted" : "done";
+      if (stream_) report_.stream = stream_->counts();
+      const bool ended_early = interrupt_.happened() || (report_.stream && report_.stream->closed);
+      report_.status = ended_early ? "interrupted" : "done";
     } catch (const std::exception& error) {
       report_.status = "failed";
       report_.error = error.what();
@@ -84,7 +84,7 @@ class Run {
   // Opens the source and adapts the settings to what it gives.
   std::unique_ptr<FrameSource> open(const std::string& uri) {
     Settings& settings = report_.settings;
-    auto source = open_source(uri, settings.sensor);
+    auto source = open_source(uri, {settings.sensor, settings});
     report_.source = source->info();
     fit_to_depth(settings, report_.source);
     fit_default_levels(settings, report_.source);
@@ -92,6 +92,15 @@ class Run {
     check_dump(settings, settings.model);
     check_start(report_.source, settings.start);
     return source;
+  }
+
+  void open_stream() {
+    const Settings& settings = report_.settings;
+    if (settings.stream.empty()) return;
+    if (settings.stream == "-" && settings.json)
+      throw usage_error("--json and --stream - both write to standard output", "--json",
+                        "leave one out; manifest.json has the summary too");
+    stream_ = open_line_stream(settings.stream, report_.source.live ? SlowReader::drop : SlowReader::wait);
   }
 
   ProcessorOptions processor_options() const {
@@ -109,17 +118,22 @@ class Run {
     LineFile fixations(folder_ / "fixations.jsonl");
     Progress progress(!settings.quiet, expected_frames(report_.source, settings));
     Pipeline pipeline(std::move(source), std::move(processor), pipeline_options(writers));
-    const Interrupt::Handler handler(interrupt_, [&] { pipeline.stop(); });
+    const Interrupt::Handler handler(interrupt_, [&] {
+      if (stream_) stream_->interrupt();
+      pipeline.stop();
+    });
+    DatasetWriter dataset(folder_, report_.source);
     WriterPool writer(writers, [&](const Result& result) {
-      write_frame(folder_, result, settings.dump, settings.first_level, settings.overlay);
+      write_frame(folder_, result, settings.dump, settings.first_level, dataset, settings.overlay);
     });
     try {
-      write_results(pipeline, writer, fixations, progress);
+      write_results(pipeline, writer, fixations, dataset, progress);
     } catch (...) {
       end(pipeline, begin);
       throw;
     }
     end(pipeline, begin);
+    report_depth_losses(dataset.losses(), report_.out);
   }
 
   PipelineOptions pipeline_options(int writers) {
@@ -131,11 +145,16 @@ class Run {
       options.on_state = report_state;
     }
     options.on_rejected = [this](std::int64_t index, const std::string& reason) { reject(index, reason); };
+    options.on_incomplete = [this](std::int64_t index, const std::string& reason) {
+      report_.incomplete.add(index, reason);
+    };
     return options;
   }
 
-  void write_results(Pipeline& pipeline, WriterPool& writer, LineFile& fixations, Progress& progress) {
+  void write_results(Pipeline& pipeline, WriterPool& writer, LineFile& fixations, DatasetWriter& dataset,
+                     Progress& progress) {
     const bool live = report_.source.live;
+    const bool dumps_dataset = report_.settings.dump.contains("depth");
     std::function<std::string()> more;
     if (live) more = [&] { return live_text(pipeline.ledger(), pipeline.latency()); };
     bool first = true;
@@ -147,13 +166,19 @@ class Run {
         if (live) report_.source.intrinsics = result->frame.intrinsics;
         report_notes(report_.source, report_.settings);
       }
-      fixations.append(fixations_json(*result));
+      const std::string line = fixations_json(*result);
+      fixations.append(line);
+      if (stream_) stream_->send(streamed_json(*result, line));
       report_.stages.add(result->times);
       report_.tracks.add(result->frame.index, result->attention);
+      if (dumps_dataset) dataset.add(result->frame);
       writer.submit(std::move(result));
       progress.update(pipeline.ledger().processed, more);
+      if (stream_ && stream_->counts().closed) pipeline.stop();  // nobody follows any more
     }
+    if (stream_) stream_->finish();
     writer.finish();
+    dataset.finish();
     fixations.check_in_place();
   }
 
@@ -202,6 +227,8 @@ class Run {
   void print_summary() const {
     if (report_.settings.json)
       print_json(summary_json(report_));
+    else if (report_.settings.stream == "-")
+      spdlog::info("{}", summary_text(report_));
     else if (!report_.settings.quiet)
       print_text(summary_text(report_) + "\n");
   }
@@ -210,7 +237,8 @@ class Run {
   fs::path folder_;
   bool has_earlier_run_ = false;  // left its manifest in the folder
   RunReport report_;
-  std::mutex rejected_mutex_;  // guards report_.rejected while the pipeline runs
+  std::unique_ptr<LineStream> stream_;  // nullptr = none
+  std::mutex rejected_mutex_;           // guards report_.rejected while the pipeline runs
 };
 
 }  // namespace

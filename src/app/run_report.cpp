@@ -106,6 +106,11 @@ Json summary_json(const RunReport& report) {
   json["stages_ms"] = stages_json(report.stages);
   json["latency_ms"] = times_json(report.latency);
   json["dropped_by"] = {{"newer_frame", report.ledger.replaced}, {"end", report.ledger.stopped()}};
+  if (report.stream)
+    json["stream"] = {{"to", report.settings.stream},
+                      {"sent", report.stream->sent},
+                      {"dropped", report.stream->dropped},
+                      {"closed", report.stream->closed}};
   if (report.device) json["device"] = device_json(*report.device);
   return json;
 }
@@ -124,19 +129,25 @@ Json manifest_json(const RunReport& report) {
   for (const auto& [index, reason] : report.rejected)
     rejected.push_back({{"frame", index}, {"reason", reason}});
   json["rejected"] = rejected;
+  if (report.incomplete.count() > 0)
+    json["incomplete"] = {{"frames", report.incomplete.count()}, {"first", report.incomplete.first()}};
   return json;
 }
 
 std::string summary_text(const RunReport& report) {
   const Ledger& ledger = report.ledger;
-  return fmt::format("{} in {:.2f} s ({:.1f}/s){}{}{}; see {}", counted(ledger.processed, "frame"),
+  return fmt::format("{} in {:.2f} s ({:.1f}/s){}{}{}{}; see {}", counted(ledger.processed, "frame"),
                      report.wall_s, static_cast<double>(ledger.processed) / std::max(report.wall_s, 1e-9),
                      report.source.live ? ", " + live_text(ledger, report.latency) : "",
                      ledger.rejected > 0 ? fmt::format(", {} rejected", ledger.rejected) : "",
+                     report.stream && report.stream->dropped > 0
+                         ? fmt::format(", {} lines of the stream dropped", report.stream->dropped)
+                         : "",
                      report.status == "interrupted" ? ", interrupted" : "", report.out);
 }
 
 void report_rejected(const RunReport& report) {
+  report_incomplete(report.source.uri, report.incomplete);
   if (report.rejected.empty()) return;
   const auto& [index, reason] = report.rejected.front();
   spdlog::warn("{}: {} rejected (see manifest.json), the first, frame {}: {}", report.source.uri,

@@ -8,7 +8,9 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "app/frame_problems.hpp"
 #include "core/frame_source.hpp"
+#include "output/line_stream.hpp"
 #include "pipeline/ledger.hpp"
 #include "pipeline/stage_statistics.hpp"
 #include "settings/settings.hpp"
@@ -29,10 +31,12 @@ struct RunReport {
   int workers = 0;  ///< worker_count(settings)
   Ledger ledger;
   std::vector<std::pair<std::int64_t, std::string>> rejected;  ///< source index and reason; the first 10000
+  FrameProblems incomplete;  ///< frames without a colour image or labels that could not be read
   StageStatistics stages;
-  DurationHistogram latency;          ///< from the capture of a frame to its result
-  TrackLog tracks;                    ///< of attention over time; empty = frames were taken one by one
-  std::optional<SourceState> device;  ///< state of a live source at the end
+  DurationHistogram latency;               ///< from the capture of a frame to its result
+  TrackLog tracks;                         ///< of attention over time; empty = frames were taken one by one
+  std::optional<LineStreamCounts> stream;  ///< of --stream; none = it was not used
+  std::optional<SourceState> device;       ///< state of a live source at the end
   double wall_s = 0;
   std::string out;
 };
@@ -49,7 +53,7 @@ nlohmann::ordered_json summary_json(const RunReport& report);
 /// One line, e.g. "90 frames in 2.41 s (37.3/s); see out/table".
 std::string summary_text(const RunReport& report);
 
-/// Warns of rejected frames, if there are any.
+/// Warns of rejected and incomplete frames, if there are any.
 void report_rejected(const RunReport& report);
 
 }  // namespace saccade

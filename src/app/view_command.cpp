@@ -102,7 +102,11 @@ void view(const ViewArguments& arguments, const SettingsOptions& options) {
   viewer_options.paused = arguments.paused;
 
   Interrupt interrupt;
-  Viewer viewer(std::move(state), std::move(viewer_options), open_source, connected_sensors, sensor_advice);
+  const auto open = [uri = arguments.source, input = InputSettings(settings)](const std::string& source,
+                                                                              const SensorSettings& sensor) {
+    return open_source(source, {sensor, source == uri ? input : InputSettings{}});
+  };
+  Viewer viewer(std::move(state), std::move(viewer_options), open, connected_sensors, sensor_advice);
   const Interrupt::Handler handler(interrupt, [&] { viewer.stop(); });
   viewer.run();
   if (arguments.screenshot.empty()) save_state(viewer.state(), file);

@@ -21,6 +21,9 @@ struct SourceInfo {
   std::optional<std::int64_t> frame_count;  ///< unknown for live sensors
   double rate_hz = 0;                       ///< nominal; 0 = unknown
   Intrinsics intrinsics;
+  /// mm of one unit of the depth as the source stores it: depth is the float nearest to an integer below
+  /// 65535 times this, and so can be stored again exactly. 0 = real numbers, or not known.
+  double depth_unit_mm = 0;
   bool has_depth = true;  ///< false: a plain camera or video, whose depth never has a reading
   bool live = false;      ///< the source sets the time of each frame, and no frame can be read twice
   bool sequence = false;  ///< each frame shows the scene of the one before it a moment later

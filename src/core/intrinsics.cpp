@@ -28,9 +28,9 @@ Intrinsics Intrinsics::at_level(int level) const {
 }
 
 Intrinsics Intrinsics::guess_for(cv::Size size) {
-  // The division comes last: 319.5 * 8 / 640 is exact, 319.5 * (8 / 640.0) is 3.9937500000000004.
-  const auto scaled = [&](double at_640) { return at_640 * size.width / 640; };
-  return {scaled(525), scaled(525), scaled(319.5), scaled(239.5), IntrinsicsOrigin::guess};
+  // The division comes last: 525 * 8 / 640 is exact, 525 * (8 / 640.0) need not be.
+  const double focal_px = 525.0 * size.width / 640;
+  return {focal_px, focal_px, (size.width - 1) / 2.0, (size.height - 1) / 2.0, IntrinsicsOrigin::guess};
 }
 
 Intrinsics Intrinsics::from_field_of_view(cv::Size size, double horizontal_rad, double vertical_rad,

@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <optional>
 #include <set>
+#include <stdexcept>
 
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "core/setting.hpp"
 #include "oni/record_writer.hpp"
 #include "oni/recording.hpp"
 #include "oni/walker.hpp"
@@ -27,10 +30,51 @@ bool is_playable(const Recording& recording, const OniNode& node) {
   return !format_at(node, position).unusable;
 }
 
+// The frames of a piece: numbers of the depth stream, and the times of the others.
+struct Window {
+  const OniNode* depth = nullptr;
+  std::size_t first = 0, last = 0;
+  std::uint64_t from_us = 0, to_us = 0;
+
+  bool holds(const OniNode& node, std::size_t k, std::uint64_t time_us) const {
+    return &node == depth ? k >= first && k <= last : time_us >= from_us && time_us <= to_us;
+  }
+};
+
+Window window_of(const Recording& recording, const OniPiece& piece) {
+  const OniNode* depth = main_depth(recording);
+  const std::string& name = recording.file().name();
+  if (depth == nullptr) throw unreadable("no depth frames in this recording", name, "");
+  const auto& frames = depth->frames;
+  const std::uint64_t begin_us = frames.front().timestamp_us;
+  const auto inside = [&](std::size_t k) {
+    const std::uint64_t place =
+        piece.times ? std::max(frames[k].timestamp_us, begin_us) - begin_us : std::uint64_t{k};
+    return place >= piece.first && place <= piece.last;
+  };
+  Window window{depth, frames.size(), 0, 0, 0};
+  for (std::size_t k = 0; k < frames.size(); ++k) {
+    if (!inside(k)) continue;
+    window.first = std::min(window.first, k);
+    window.last = k;
+  }
+  if (window.first == frames.size())
+    throw usage_error("no depth frame is in this piece", name,
+                      fmt::format("it has frames 0..{}", frames.size() - 1));
+  // As far as a reader looks for the colour of a depth frame.
+  constexpr std::uint64_t kTolerance_us = 25'000;
+  const std::uint64_t first_us = frames[window.first].timestamp_us;
+  window.from_us = first_us - std::min(first_us, kTolerance_us);
+  window.to_us = frames[window.last].timestamp_us + kTolerance_us;
+  return window;
+}
+
 class Repair {
  public:
-  Repair(const std::filesystem::path& from, const std::filesystem::path& to, bool overwrite)
+  Repair(const std::filesystem::path& from, const std::filesystem::path& to, bool overwrite,
+         const std::optional<OniPiece>& piece = {})
       : recording_(from), index_(recording_.index()) {
+    if (piece) window_ = window_of(recording_, *piece);
     for (const OniNode& node : index_.nodes) {
       if (is_playable(recording_, node))
         kept_.insert(node.id);
@@ -145,6 +189,10 @@ class Repair {
     std::size_t& k = next_frame_[record.node];
     // The index and this walk have the same records in the same order, but the index may hold fewer frames.
     if (k >= node.frames.size() || node.frames[k].payload_position != record.payload_position()) return;
+    if (window_ && !window_->holds(node, k, record.timestamp_us)) {
+      ++k;
+      return;
+    }
     const OniFormat format = recording_.format(node, k);
     const Outcome read_frame = node.declared.type == OniNodeType::depth
                                    ? recording_.read_stored_depth(node, k, depth_)
@@ -164,6 +212,7 @@ class Repair {
   const OniIndex& index_;
   std::optional<OniRecordWriter> writer_;
   OniRepairReport report_;
+  std::optional<Window> window_;                             // the piece to copy; none = everything
   std::set<std::uint32_t> kept_;                             // node ids
   std::set<std::pair<std::uint32_t, std::string>> written_;  // properties
   std::map<std::uint32_t, std::size_t> next_frame_;          // of each node
@@ -182,6 +231,39 @@ OniRepairReport repair_recording(const std::filesystem::path& from, const std::f
     throw usage_error("the repaired recording needs another name", to.string(),
                       "repair never changes the original");
   return Repair(from, to, overwrite).run();
+}
+
+OniPiece parse_piece(std::string_view text) {
+  const std::string expected = "FROM..TO, frame numbers (10..20) or seconds (1.5s..3s), FROM not after TO";
+  const auto dots = text.find("..");
+  if (dots == std::string_view::npos) throw std::invalid_argument(expected);
+  std::string_view from = text.substr(0, dots), to = text.substr(dots + 2);
+  OniPiece piece;
+  piece.times = from.ends_with('s') && to.ends_with('s');
+  if (piece.times) {
+    from.remove_suffix(1);
+    to.remove_suffix(1);
+    const auto us = [&](std::string_view part) {
+      constexpr double kLongest_s = 1e9;
+      return static_cast<std::uint64_t>(std::llround(parse_number(part, 0.0, kLongest_s, expected) * 1e6));
+    };
+    piece.first = us(from);
+    piece.last = us(to);
+  } else {
+    constexpr std::uint64_t kMost = kOniMaxFrames;
+    piece.first = parse_number(from, std::uint64_t{0}, kMost, expected);
+    piece.last = parse_number(to, std::uint64_t{0}, kMost, expected);
+  }
+  if (piece.last < piece.first) throw std::invalid_argument(expected);
+  return piece;
+}
+
+OniRepairReport cut_recording(const std::filesystem::path& from, const std::filesystem::path& to,
+                              const OniPiece& piece, bool overwrite) {
+  std::error_code code;
+  if (std::filesystem::equivalent(from, to, code))
+    throw usage_error("the piece needs a name of its own", to.string(), "cut never changes the original");
+  return Repair(from, to, overwrite, piece).run();
 }
 
 }  // namespace saccade

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace saccade {
@@ -23,5 +24,21 @@ struct OniRepairReport {
 /// (failed). After an error `to` is as it was before.
 OniRepairReport repair_recording(const std::filesystem::path& from, const std::filesystem::path& to,
                                  bool overwrite);
+
+/// A piece of a recording: frames of its first depth stream by their numbers, from 0, or by their times from
+/// the first of them. Both ends are in it.
+struct OniPiece {
+  std::uint64_t first = 0, last = 0;  ///< numbers, or us
+  bool times = false;                 ///< they are times
+};
+
+/// Reads "FROM..TO": frame numbers ("10..20") or seconds ("1.5s..3s"). Throws std::invalid_argument that says
+/// what is expected.
+OniPiece parse_piece(std::string_view text);
+
+/// Like repair_recording(), with the frames of `piece` and those of other streams that belong to them in
+/// time. Frames keep their times. Throws Error (usage) also if the recording has no frame in the piece.
+OniRepairReport cut_recording(const std::filesystem::path& from, const std::filesystem::path& to,
+                              const OniPiece& piece, bool overwrite);
 
 }  // namespace saccade

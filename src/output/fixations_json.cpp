@@ -1,5 +1,6 @@
 #include "output/fixations_json.hpp"
 
+#include <chrono>
 #include <string>
 
 #include <fmt/format.h>
@@ -51,6 +52,14 @@ std::string fixations_json(const Result& result) {
   if (!attention.ended_early.empty())
     line += fmt::format(R"(,"ended_early":{})", quoted(attention.ended_early));
   return line + '}';
+}
+
+std::string streamed_json(const Result& result, const std::string& fixations) {
+  using std::chrono::duration_cast, std::chrono::microseconds;
+  const auto ago = std::chrono::steady_clock::now() - result.captured_at;
+  const auto captured = std::chrono::system_clock::now().time_since_epoch() - ago;
+  return fmt::format(R"({{"captured_us":{},{})", duration_cast<microseconds>(captured).count(),
+                     fixations.substr(1));
 }
 
 }  // namespace saccade

@@ -16,4 +16,8 @@ inline constexpr int kFixationsFormat = 1;
 /// each fixation "id", "age_frames" and "world_mm".
 std::string fixations_json(const Result& result);
 
+/// The same line for a reader who follows the work: it begins with "captured_us", the wall-clock time of the
+/// frame's capture in microseconds since 1970 (UTC).
+std::string streamed_json(const Result& result, const std::string& fixations);
+
 }  // namespace saccade

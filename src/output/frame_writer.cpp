@@ -11,6 +11,7 @@
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "core/png.hpp"
+#include "output/cloud_files.hpp"
 #include "output/colour_map.hpp"
 #include "output/tiff.hpp"
 
@@ -36,37 +37,12 @@ bool is_frame_file(std::string_view name) {
   return ending.size() > kTiff.size() && is_number(ending.substr(0, ending.size() - kTiff.size()));
 }
 
-void append(std::vector<std::uint8_t>& bytes, const void* data, std::size_t size) {
-  const auto* begin = static_cast<const std::uint8_t*>(data);
-  bytes.insert(bytes.end(), begin, begin + size);
-}
-
-// The points of all pixels with a reading, row by row; grey where the frame has no colour.
-std::vector<std::uint8_t> cloud_ply(const Frame& frame) {
-  const std::string header = fmt::format(
-      "ply\nformat binary_little_endian 1.0\nelement vertex {}\nproperty float x\nproperty float y\n"
-      "property float z\nproperty uchar red\nproperty uchar green\nproperty uchar blue\nend_header\n",
-      cv::countNonZero(frame.depth_mm > 0));
-  std::vector<std::uint8_t> bytes(header.begin(), header.end());
-  for (int r = 0; r < frame.depth_mm.rows; ++r)
-    for (int c = 0; c < frame.depth_mm.cols; ++c) {
-      const auto z = static_cast<double>(frame.depth_mm(r, c));
-      if (!(z > 0)) continue;
-      const cv::Point3f point = frame.intrinsics.point_mm(r, c, z);
-      const cv::Vec3b bgr = frame.colour.empty() ? cv::Vec3b(160, 160, 160) : frame.colour(r, c);
-      const std::array<std::uint8_t, 3> rgb = {bgr[2], bgr[1], bgr[0]};
-      append(bytes, &point, sizeof point);
-      append(bytes, rgb.data(), sizeof rgb);
-    }
-  return bytes;
-}
-
 }  // namespace
 
 void write_frame(const std::filesystem::path& folder, const Result& result, const std::set<std::string>& dump,
-                 int first_level, const OverlayStyle& style) {
+                 int first_level, DatasetWriter& dataset, const OverlayStyle& style) {
   const auto path = [&](const std::string& ending) {
-    return folder / fmt::format("{:06}_{}", result.frame.index, ending);
+    return folder / frame_file(result.frame.index, ending);
   };
   const SaliencyMaps& maps = result.maps;
   if (dump.contains("maps")) {
@@ -74,13 +50,9 @@ void write_frame(const std::filesystem::path& folder, const Result& result, cons
     write_file(path("saliency.png"), encode_png(to_grey(maps.master)));
   }
   const Frame& frame = result.frame;
-  if (dump.contains("depth")) {
-    cv::Mat1w depth;
-    frame.depth_mm.convertTo(depth, CV_16U);
-    write_file(path("depth.png"), encode_png(depth));
-  }
-  if (dump.contains("colour") && !frame.colour.empty()) write_file(path("rgb.png"), encode_png(frame.colour));
-  if (dump.contains("cloud")) write_file(path("cloud.ply"), cloud_ply(frame));
+  if (dump.contains("depth")) dataset.write_depth(frame);
+  if (dump.contains("colour")) dataset.write_colour(frame);
+  if (dump.contains("cloud")) write_file(path("cloud.ply"), encode_ply(frame, maps.normals));
   if (dump.contains("levels"))
     for (std::size_t i = 0; i < maps.levels.size(); ++i)
       write_file(path(fmt::format("level{}.tiff", first_level + static_cast<int>(i))),

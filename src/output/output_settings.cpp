@@ -8,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "models/model.hpp"
+#include "output/line_stream.hpp"
 
 namespace saccade {
 namespace {
@@ -140,6 +141,13 @@ std::vector<SettingOf<S>> output_setting_specs() {
       {"dump", "LIST",
        "files to write of each frame: maps,levels,overlay,normals,masks,labels,depth,colour,cloud or none",
        parse_dump, print_dump},
+      {"stream", "TO",
+       "send the lines of fixations.jsonl as they come: - (standard output) or udp://HOST:PORT",
+       [](S& s, const std::string& text) {
+         check_stream_form(text);
+         s.stream = text;
+       },
+       [](const S& s) { return s.stream; }},
       switch_setting<S>("json", "print a summary in JSON, and nothing else, on standard output", &S::json),
   };
   for (SettingOf<S>& spec : overlay_setting_specs()) specs.push_back(std::move(spec));
@@ -147,7 +155,8 @@ std::vector<SettingOf<S>> output_setting_specs() {
 }
 
 RequestedOutputs requested_outputs(const OutputSettings& settings) {
-  return {settings.dump.contains("levels"), settings.dump.contains("normals")};
+  return {settings.dump.contains("levels"),
+          settings.dump.contains("normals") || settings.dump.contains("cloud")};
 }
 
 void check_dump(const OutputSettings& settings, std::string_view model) {

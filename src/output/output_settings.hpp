@@ -15,7 +15,8 @@ namespace saccade {
 struct OutputSettings {
   std::set<std::string> dump = {"maps", "overlay"};  ///< files of each frame; see write_frame()
   bool json = false;                                 ///< a summary in JSON on standard output
-  OverlayStyle overlay{};                            ///< of the overlay's picture
+  std::string stream{};    ///< where the lines of fixations.jsonl go as they come: "-" or "udp://HOST:PORT"
+  OverlayStyle overlay{};  ///< of the overlay's picture
 };
 
 std::vector<SettingOf<OutputSettings>> output_setting_specs();

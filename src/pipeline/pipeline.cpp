@@ -129,6 +129,7 @@ void Pipeline::capture_frames() {
       reject(index, read.reason);
       continue;
     }
+    if (!read.reason.empty() && options_.on_incomplete) options_.on_incomplete(index, read.reason);
     slot = hand_over(slot);
   }
 }

@@ -35,6 +35,9 @@ struct PipelineOptions {
   /// Called for each frame that cannot be used: on the capture thread, or on the compute thread if the model
   /// cannot use it (it throws Error, unreadable, e.g. for a frame without colour).
   std::function<void(std::int64_t index, const std::string& reason)> on_rejected;
+  /// Called on the capture thread for each frame that can be used, but lacks something: colour or labels that
+  /// could not be read.
+  std::function<void(std::int64_t index, const std::string& reason)> on_incomplete;
   /// Called on the capture thread with changes of the source's state (SourceStateNotifier).
   std::function<void(const SourceState&)> on_state;
 };

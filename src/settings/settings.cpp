@@ -39,6 +39,7 @@ std::vector<SettingSpec> make_specs() {
   append(specs, SettingScope::attention, attention_setting_specs(), whole);
   append(specs, SettingScope::tracking, tracking_setting_specs(), whole);
   append(specs, SettingScope::frames, frame_setting_specs(), whole);
+  append(specs, SettingScope::frames, input_setting_specs(), whole);
   append(specs, SettingScope::sensor, sensor_setting_specs(), sensor);
   append(specs, SettingScope::output, output_setting_specs(), whole);
   append(specs, SettingScope::program, program_setting_specs(), whole);

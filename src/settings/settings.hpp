@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "attention/attention_settings.hpp"
+#include "core/input_settings.hpp"
 #include "core/sensor_settings.hpp"
 #include "core/setting.hpp"
 #include "models/model_settings.hpp"
@@ -22,6 +23,7 @@ struct Settings : ModelSettings,
                   AttentionSettings,
                   TrackingSettings,
                   FrameSettings,
+                  InputSettings,
                   OutputSettings,
                   ProgramSettings {
   SensorSettings sensor;  ///< a member, since names such as `mode` say too little without it

@@ -1,4 +1,4 @@
-// Numbered depth images whose names a pattern gives: depth_%04d.png.
+// Depth images by their names: numbered, as a pattern gives them (depth_%04d.png), or a single one.
 #include <charconv>
 #include <optional>
 #include <string>
@@ -68,14 +68,34 @@ std::optional<NamePattern> pattern_of(const SourceInput& input) {
 // The colour image beside a depth image: "rgb" for the last "depth" of its name.
 fs::path colour_of(const FolderNames& names, const std::string& depth) {
   constexpr std::string_view kDepth = "depth";
-  std::string stem = depth.substr(0, depth.size() - kEnding.size());
+  const std::string stem = depth.substr(0, depth.size() - kEnding.size());
   const auto found = stem.rfind(kDepth);
   if (found == std::string::npos) return {};
-  stem.replace(found, kDepth.size(), "rgb");
-  return names.first_of({stem + ".png", stem + ".jpg"});
+  for (const char* word : {"rgb", "color", "colour"}) {
+    std::string colour = stem;
+    colour.replace(found, kDepth.size(), word);
+    const fs::path path = names.first_of({colour + ".png", colour + ".jpg", colour + ".jpeg"});
+    if (!path.empty()) return path;
+  }
+  return {};
+}
+
+FolderListing list_one(const SourceInput& input) {
+  FolderListing listing;
+  FolderEntry entry;
+  entry.name = input.path.stem().string();
+  entry.depth = input.path;
+  entry.colour = colour_of(FolderNames(input.path.parent_path()), input.path.filename().string());
+  listing.entries.push_back(std::move(entry));
+  return listing;
+}
+
+bool is_png_file(const SourceInput& input) {
+  return input.type == SourceInput::Type::file && input.ending == kEnding;
 }
 
 FolderListing list_images(const SourceInput& input) {
+  if (is_png_file(input)) return list_one(input);
   const fs::path folder = input.path.parent_path();
   const NamePattern pattern = pattern_of(input).value();
   const FolderNames names(folder);
@@ -93,7 +113,6 @@ FolderListing list_images(const SourceInput& input) {
     throw unreadable("no images of that pattern", input.uri,
                      "e.g. depth_%04d.png for depth_0000.png, depth_0001.png, ..");
   FolderListing listing = list_by_number(std::move(found));
-  listing.scales_colour = true;
   return listing;
 }
 
@@ -102,12 +121,14 @@ FolderListing list_images(const SourceInput& input) {
 extern const SourceKind kImagesKind = {
     .name = "images",
     .written = "depth_%04d.png",
-    .help = "numbered depth images (PNG, 16 bits, mm), with colour from rgb_%04d.png or .jpg",
-    .recognised_by = "a pattern with one %d that ends in .png",
-    .recognises = [](const SourceInput& input) { return pattern_of(input).has_value(); },
+    .help = "depth images (PNG, 16 bits), numbered or one, with colour from rgb_%04d.png or .jpg",
+    .recognised_by = "a pattern with one %d that ends in .png, or a .png file",
+    .recognises =
+        [](const SourceInput& input) { return is_png_file(input) || pattern_of(input).has_value(); },
     .open =
-        [](const SourceInput& input, const SensorSettings&) {
-          return open_folder(input, input.path.parent_path(), kImagesKind.name, list_images(input));
+        [](const SourceInput& input, const SourceOptions& options) {
+          return open_folder(input, input.path.parent_path(), kImagesKind.name, list_images(input),
+                             options.input);
         },
 };
 

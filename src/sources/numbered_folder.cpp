@@ -7,6 +7,7 @@
 #include "core/error.hpp"
 #include "sources/numbered_frames.hpp"
 #include "sources/poses_file.hpp"
+#include "sources/times_file.hpp"
 
 namespace saccade {
 namespace fs = std::filesystem;
@@ -15,7 +16,7 @@ namespace {
 // The number in "NNNN_depth.png"; std::nullopt for another name.
 std::optional<std::int64_t> frame_number(const std::string& name) {
   constexpr std::string_view kEnding = "_depth.png";
-  if (!name.ends_with(kEnding)) return std::nullopt;
+  if (!lower_case(name).ends_with(kEnding)) return std::nullopt;
   std::int64_t number = 0;
   const char* end = name.data() + name.size() - kEnding.size();
   const auto [stop, code] = std::from_chars(name.data(), end, number);
@@ -34,14 +35,14 @@ FolderListing list_numbered(const fs::path& folder) {
     entry.name = stem;
     entry.depth = folder / name;
     entry.colour = names.first_of({stem + "_rgb.png", stem + "_rgb.jpg", stem + "_rgb.jpeg"});
-    entry.label = names.first_of({stem + "_label.png"});
+    entry.label = names.first_of({stem + "_label.png", stem + "_labels.png"});
     entry.classes = names.first_of({stem + "_class.png"});
     if (!found.emplace(*number, entry).second)
       throw unreadable("two depth images have the same number", entry.depth.string(), "rename or delete one");
   }
   const std::vector<cv::Affine3d> poses = read_poses(folder);
-  FolderListing listing = list_by_number(std::move(found));
-  listing.sequence = !poses.empty();
+  FolderListing listing = list_by_number(std::move(found), read_times(folder / "times.txt"));
+  listing.sequence = listing.sequence || !poses.empty();
   for (std::size_t i = 0; i < std::min(poses.size(), listing.entries.size()); ++i)
     listing.entries[i].camera_to_world = poses[i];
   return listing;
@@ -60,12 +61,12 @@ bool has_numbered_depth(const SourceInput& input) {
 extern const SourceKind kNumberedKind = {
     .name = "folder",
     .written = "FOLDER",
-    .help = "NNNN_depth.png (16 bits, mm), with NNNN_rgb.png or .jpg and NNNN_label.png where there are any",
+    .help = "NNNN_depth.png (16 bits), with NNNN_rgb.png or .jpg and NNNN_label.png where there are any",
     .recognised_by = "NNNN_depth.png",
     .recognises = has_numbered_depth,
     .open =
-        [](const SourceInput& input, const SensorSettings&) {
-          return open_folder(input, input.path, kNumberedKind.name, list_numbered(input.path));
+        [](const SourceInput& input, const SourceOptions& options) {
+          return open_folder(input, input.path, kNumberedKind.name, list_numbered(input.path), options.input);
         },
 };
 

@@ -5,7 +5,7 @@
 #include <initializer_list>
 #include <map>
 #include <string>
-#include <unordered_set>
+#include <vector>
 
 #include "sources/folder_source.hpp"
 
@@ -17,18 +17,23 @@ class FolderNames {
   /// Throws std::filesystem::filesystem_error if the folder cannot be listed.
   explicit FolderNames(const std::filesystem::path& folder);
 
-  const std::unordered_set<std::string>& all() const { return names_; }
+  std::vector<std::string> all() const;
 
-  /// The path of the first of these files that the folder has; empty if it has none.
+  /// The path of the first of these files that the folder has, in letters of any case; empty if it has none.
   std::filesystem::path first_of(std::initializer_list<std::string> names) const;
 
  private:
   std::filesystem::path folder_;
-  std::unordered_set<std::string> names_;
+  std::map<std::string, std::string> names_;  // by the name in lower case
 };
 
-/// The listing of frames by their numbers, which are not negative: frame N is at N / 30 s from the first.
-/// Gaps in the numbering are a note.
-FolderListing list_by_number(std::map<std::int64_t, FolderEntry> frames);
+/// A name in lower case, as far as it is ASCII.
+std::string lower_case(std::string name);
+
+/// The listing of frames by their numbers, which are not negative. Frame N has its time in `times_us`; where
+/// there are no times, it is at N / 30 s from the first. A frame without one among others that have is 1/30 s
+/// after the frame before it. Gaps in the numbering are a note, and so are frames without a time.
+FolderListing list_by_number(std::map<std::int64_t, FolderEntry> frames,
+                             const std::map<std::int64_t, std::int64_t>& times_us = {});
 
 }  // namespace saccade

@@ -11,12 +11,12 @@ constexpr std::string_view kEndings[] = {".mat"};
 
 #ifdef SACCADE_HDF5
 constexpr bool kBuilt = true;
-std::unique_ptr<FrameSource> open(const SourceInput& input, const SensorSettings&) {
-  return open_nyu(input.path);
+std::unique_ptr<FrameSource> open(const SourceInput& input, const SourceOptions& options) {
+  return open_nyu(input.path, options.input);
 }
 #else
 constexpr bool kBuilt = false;
-std::unique_ptr<FrameSource> open(const SourceInput&, const SensorSettings&) {
+std::unique_ptr<FrameSource> open(const SourceInput&, const SourceOptions&) {
   throw not_in_this_build("HDF5", "SACCADE_HDF5");
 }
 #endif

@@ -40,7 +40,9 @@ cv::Mat1w number_objects(const cv::Mat1w& classes, const cv::Mat1w& instances) {
 
 class NyuSource : public FrameSource {
  public:
-  explicit NyuSource(const fs::path& path) : path_(path.string()), file_(open_hdf5(path)) {
+  NyuSource(const fs::path& path, const InputSettings& settings)
+      : path_(path.string()), file_(open_hdf5(path)) {
+    if (settings.depth_unit_mm > 0) mm_per_unit_ = static_cast<float>(settings.depth_unit_mm);
     if (!file_.valid()) throw unreadable("not an HDF5 file", path_, kHint);
     try {
       open_arrays();
@@ -108,11 +110,14 @@ class NyuSource : public FrameSource {
   cv::Size stored() const { return {info_.size.height, info_.size.width}; }
 
   void read_depth(Frame& frame) {
-    constexpr float kFarthest_m = 1e4F;
-    cv::Mat1f metres(stored());
-    depths_->read(static_cast<hsize_t>(frame.index), H5T_NATIVE_FLOAT, metres.data);
-    for (float& z : metres) z = z > 0 && z < kFarthest_m ? z * 1000 : 0;  // also where z is not a number
-    cv::transpose(metres, frame.depth_mm);
+    constexpr float kFarthest_mm = 1e7F;
+    cv::Mat1f depth(stored());
+    depths_->read(static_cast<hsize_t>(frame.index), H5T_NATIVE_FLOAT, depth.data);
+    for (float& z : depth) {
+      z *= mm_per_unit_;
+      if (!(z > 0 && z < kFarthest_mm)) z = 0;  // also where it is not a number
+    }
+    cv::transpose(depth, frame.depth_mm);
   }
 
   void read_colour(Frame& frame) {
@@ -150,11 +155,14 @@ class NyuSource : public FrameSource {
   Hdf5Id file_;
   SourceInfo info_;
   std::optional<Hdf5Images> depths_, images_, labels_, instances_;
+  float mm_per_unit_ = 1000;  // the arrays are in metres
   std::int64_t next_ = 0;
 };
 
 }  // namespace
 
-std::unique_ptr<FrameSource> open_nyu(const fs::path& file) { return std::make_unique<NyuSource>(file); }
+std::unique_ptr<FrameSource> open_nyu(const fs::path& file, const InputSettings& settings) {
+  return std::make_unique<NyuSource>(file, settings);
+}
 
 }  // namespace saccade

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "core/frame_source.hpp"
+#include "core/input_settings.hpp"
 
 namespace saccade {
 
@@ -14,6 +15,6 @@ namespace saccade {
 /// that is not in 0..10 km is no reading. The camera of 640 x 480 images is the colour camera of the data
 /// set's own calibration; that of others is a guess. Throws Error (unreadable): no such file, not HDF5, an
 /// array is missing or has another shape.
-std::unique_ptr<FrameSource> open_nyu(const std::filesystem::path& file);
+std::unique_ptr<FrameSource> open_nyu(const std::filesystem::path& file, const InputSettings& settings = {});
 
 }  // namespace saccade

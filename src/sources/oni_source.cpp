@@ -1,11 +1,13 @@
 #include "sources/oni_source.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include <fmt/format.h>
 #include <opencv2/imgproc.hpp>
 
+#include "core/depth_units.hpp"
 #include "core/error.hpp"
 #include "core/text.hpp"
 #include "sources/source_kind.hpp"
@@ -42,25 +44,29 @@ OniFormat first_format(const Recording& recording, const OniNode& node) {
   return {};
 }
 
+double nominal_rate(double rate_hz) { return rate_hz > 0 ? rate_hz : kDefaultRateHz; }
+
 // Nearest neighbours of two complete streams are at most half a period apart; the rest is for jitter.
 std::uint64_t tolerance_us(double rate_hz) {
-  return static_cast<std::uint64_t>(0.75e6 / (rate_hz > 0 ? rate_hz : kDefaultRateHz));
+  return static_cast<std::uint64_t>(0.75e6 / nominal_rate(rate_hz));
 }
 
 }  // namespace
 
-OniSource::OniSource(const std::filesystem::path& path)
+OniSource::OniSource(const std::filesystem::path& path, const InputSettings& settings)
     : recording_(path), depth_(&need_depth(recording_)), colour_(main_colour(recording_)) {
-  fill_info(path);
+  fill_info(path, settings);
 }
 
-void OniSource::fill_info(const std::filesystem::path& path) {
+void OniSource::fill_info(const std::filesystem::path& path, const InputSettings& settings) {
   const OniFormat format = first_format(recording_, *depth_);
   info_.uri = path.string();
   info_.kind = "oni";
   info_.size = format.size;
   info_.frame_count = static_cast<std::int64_t>(depth_->frames.size());
   info_.rate_hz = format.rate_hz;
+  stored_unit_mm_ = format.pixels == OniPixelFormat::depth_100um ? 0.1 : 1;
+  info_.depth_unit_mm = settings.depth_unit_mm > 0 ? settings.depth_unit_mm : stored_unit_mm_;
   info_.sequence = true;
   const auto camera = intrinsics_at(*depth_, depth_->frames.front().payload_position, format.size);
   info_.intrinsics = camera.value_or(Intrinsics::guess_for(format.size));
@@ -89,11 +95,34 @@ void OniSource::note_colour() {
   if (format.size != info_.size)
     info_.notes.push_back(fmt::format("colour of {} x {} is scaled to the depth's {} x {}", format.size.width,
                                       format.size.height, info_.size.width, info_.size.height));
+  choose_pairing();
   if (depth_->int_property(oni_property::kRegistered, recording_.index().file_size).value_or(0) == 0)
     info_.notes.push_back("the recording does not say whether colour is registered to depth; assuming it is");
 }
 
+// Whether the times of a stream say nothing: they are all the same.
+bool OniSource::is_timeless(const OniNode& node) {
+  const auto& frames = node.frames;
+  return frames.size() > 1 && std::ranges::all_of(frames, [&](const OniFrameEntry& frame) {
+           return frame.timestamp_us == frames.front().timestamp_us;
+         });
+}
+
+// Where no colour is near any depth in time, the streams have clocks of their own.
+void OniSource::choose_pairing() {
+  const auto is_near = [&](const OniFrameEntry& frame) {
+    const std::size_t k = recording_.nearest(*colour_, frame.timestamp_us).value();
+    return time_between(colour_->frames[k].timestamp_us, frame.timestamp_us) <= pairing_tolerance_us_;
+  };
+  by_order_ = colour_->frames.size() > 1 && (is_timeless(*depth_) || is_timeless(*colour_) ||
+                                             std::ranges::none_of(depth_->frames, is_near));
+  if (by_order_)
+    info_.notes.emplace_back("the times of depth and colour do not fit: they are paired by their order");
+}
+
 void OniSource::note_times() {
+  timeless_ = is_timeless(*depth_);
+  if (timeless_) info_.notes.emplace_back("the frames have no times: the nominal rate is assumed");
   const auto& frames = depth_->frames;
   std::size_t jumps = 0, first = 0;
   for (std::size_t k = 1; k < frames.size(); ++k) {
@@ -132,6 +161,8 @@ ReadResult OniSource::read(Frame& frame, std::chrono::milliseconds) {
   frame.index = static_cast<std::int64_t>(k);
   constexpr auto kLast = static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max());
   frame.timestamp_us = static_cast<std::int64_t>(std::min(entry.timestamp_us, kLast));
+  if (timeless_)
+    frame.timestamp_us = std::llround(static_cast<double>(k) * 1e6 / nominal_rate(info_.rate_hz));
   frame.name.clear();
   frame.truth = {};
   frame.intrinsics = info_.intrinsics;
@@ -141,20 +172,38 @@ ReadResult OniSource::read(Frame& frame, std::chrono::milliseconds) {
   if (const Outcome depth = recording_.read_depth(*depth_, k, frame.depth_mm); !depth)
     return {ReadStatus::rejected,
             fmt::format("frame {} at byte {}: {}", k, entry.payload_position, depth.reason())};
+  if (info_.depth_unit_mm != stored_unit_mm_) {
+    depth_to_units(frame.depth_mm, stored_unit_mm_, stored_);
+    depth_from_units(stored_, info_.depth_unit_mm, frame.depth_mm);
+  }
   if (colour_ == nullptr) {
     frame.colour.release();
     return {ReadStatus::frame, {}};
   }
-  const Outcome colour = read_colour(entry, frame.colour);
+  const Outcome colour = read_colour(k, frame.colour);
   if (!colour) frame.colour.release();
   return {ReadStatus::frame, colour.reason()};
 }
 
-// Copies the colour image that belongs to a depth frame into `colour`, in the depth's size.
-Outcome OniSource::read_colour(const OniFrameEntry& depth_frame, cv::Mat3b& colour) {
-  const std::size_t k = recording_.nearest(*colour_, depth_frame.timestamp_us).value();
-  if (time_between(colour_->frames[k].timestamp_us, depth_frame.timestamp_us) > pairing_tolerance_us_)
-    return Outcome::failure("no colour of that time");
+// The colour image that belongs to a depth frame; std::nullopt if there is none.
+std::optional<std::size_t> OniSource::colour_of(std::size_t depth_frame) const {
+  const auto& frames = colour_->frames;
+  if (by_order_) {
+    // Streams of other rates keep their ratio.
+    const std::size_t k = depth_frame * frames.size() / depth_->frames.size();
+    return k < frames.size() ? std::optional(k) : std::nullopt;
+  }
+  const std::uint64_t time_us = depth_->frames[depth_frame].timestamp_us;
+  const std::size_t k = recording_.nearest(*colour_, time_us).value();
+  return time_between(frames[k].timestamp_us, time_us) <= pairing_tolerance_us_ ? std::optional(k)
+                                                                                : std::nullopt;
+}
+
+// Copies the colour image of depth frame `depth_frame` into `colour`, in the depth's size.
+Outcome OniSource::read_colour(std::size_t depth_frame, cv::Mat3b& colour) {
+  const auto found = colour_of(depth_frame);
+  if (!found) return Outcome::failure("no colour of that time");
+  const std::size_t k = *found;
   if (shown_colour_ != k) {
     shown_colour_.reset();
     if (const Outcome read = recording_.read_colour(*colour_, k, colour_image_); !read)
@@ -182,8 +231,8 @@ extern const SourceKind kOniKind = {
     .recognised_by = "the ending, or the first bytes NI10",
     .endings = kEndings,
     .recognises = [](const SourceInput& input) { return input.head.starts_with("NI10"); },
-    .open = [](const SourceInput& input, const SensorSettings&) -> std::unique_ptr<FrameSource> {
-      return std::make_unique<OniSource>(input.path);
+    .open = [](const SourceInput& input, const SourceOptions& options) -> std::unique_ptr<FrameSource> {
+      return std::make_unique<OniSource>(input.path, options.input);
     },
 };
 

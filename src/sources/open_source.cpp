@@ -1,10 +1,13 @@
 #include "sources/open_source.hpp"
 
 #include <algorithm>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
+#include "core/depth_units.hpp"
 #include "core/error.hpp"
 #include "sources/source_kind.hpp"
 
@@ -49,14 +52,49 @@ Error not_recognised(const SourceInput& input) {
                     has_source_ending(input.path) ? "check the path" : "expected " + source_forms());
 }
 
+// A source with one note more.
+class NotedSource final : public FrameSource {
+ public:
+  NotedSource(std::unique_ptr<FrameSource> source, std::string note)
+      : source_(std::move(source)), info_(source_->info()) {
+    info_.notes.push_back(std::move(note));
+  }
+  const SourceInfo& info() const override { return info_; }
+  ReadResult read(Frame& frame, std::chrono::milliseconds timeout) override {
+    return source_->read(frame, timeout);
+  }
+  void seek(std::int64_t index) override { source_->seek(index); }
+  SourceState state() const override { return source_->state(); }
+  void interrupt() noexcept override { source_->interrupt(); }
+
+ private:
+  std::unique_ptr<FrameSource> source_;
+  SourceInfo info_;
+};
+
+// Looks at the first usable frame of a file: depth in a wrong unit gives an empty map without a word.
+std::unique_ptr<FrameSource> check_depth(std::unique_ptr<FrameSource> source) {
+  constexpr int kTries = 3;
+  if (!source->info().has_depth || source->info().live) return source;
+  Frame frame;
+  ReadResult result{ReadStatus::rejected, {}};
+  for (int i = 0; i < kTries && result.status == ReadStatus::rejected; ++i)
+    result = source->read(frame, std::chrono::milliseconds(0));
+  source->seek(0);
+  if (result.status != ReadStatus::frame) return source;
+  auto note = describe_implausible_depth(frame.depth_mm, source->info().depth_unit_mm);
+  return note ? std::make_unique<NotedSource>(std::move(source), *std::move(note)) : std::move(source);
+}
+
 }  // namespace
 
-std::unique_ptr<FrameSource> open_source(const std::string& uri, const SensorSettings& sensor) {
+std::unique_ptr<FrameSource> open_source(const std::string& uri, const SourceOptions& options) {
   const SourceInput input(uri);
   try {
     const SourceKind* kind = kind_of(input);
     if (kind == nullptr) throw not_recognised(input);
-    return kind->open(input, sensor);
+    auto source = kind->open(input, options);
+    return kind->is_path ? check_depth(std::move(source)) : std::move(source);
   } catch (const fs::filesystem_error& error) {
     throw unreadable("cannot list the folder: " + error.code().message(), error.path1().string(),
                      "check its permissions");

@@ -5,14 +5,14 @@
 #include <string>
 
 #include "core/frame_source.hpp"
-#include "core/sensor_settings.hpp"
+#include "sources/source_options.hpp"
 
 namespace saccade {
 
-/// Opens what a user names as SOURCE: the first kind of source_kinds() that recognises it. `sensor` is for
-/// live sensors only. Throws Error: (unreadable) there is no such source, no kind recognises it, or it cannot
-/// be read; (usage) the text has a mistake, or the kind is not in this build.
-std::unique_ptr<FrameSource> open_source(const std::string& uri, const SensorSettings& sensor = {});
+/// Opens what a user names as SOURCE: the first kind of source_kinds() that recognises it. Throws Error:
+/// (unreadable) there is no such source, no kind recognises it, or it cannot be read; (usage) the text has a
+/// mistake, or the kind is not in this build.
+std::unique_ptr<FrameSource> open_source(const std::string& uri, const SourceOptions& options = {});
 
 /// True if a file's name ends like a source: for lists from which a user chooses. Does not look at the disk.
 bool has_source_ending(const std::filesystem::path& file);

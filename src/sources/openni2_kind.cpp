@@ -9,12 +9,12 @@ namespace {
 
 #ifdef SACCADE_OPENNI2
 constexpr bool kBuilt = true;
-std::unique_ptr<FrameSource> open(const SourceInput& input, const SensorSettings& sensor) {
-  return std::make_unique<OpenNi2Source>(input.uri, sensor);
+std::unique_ptr<FrameSource> open(const SourceInput& input, const SourceOptions& options) {
+  return std::make_unique<OpenNi2Source>(input.uri, options.sensor);
 }
 #else
 constexpr bool kBuilt = false;
-std::unique_ptr<FrameSource> open(const SourceInput&, const SensorSettings&) {
+std::unique_ptr<FrameSource> open(const SourceInput&, const SourceOptions&) {
   throw not_in_this_build("OpenNI2", "SACCADE_OPENNI2");
 }
 #endif

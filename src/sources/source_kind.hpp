@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "core/frame_source.hpp"
-#include "core/sensor_settings.hpp"
+#include "sources/source_options.hpp"
 
 namespace saccade {
 
@@ -36,7 +36,7 @@ struct SourceKind {
   /// True for other inputs of this kind, by the form of the text or by the content. May be nullptr.
   bool (*recognises)(const SourceInput& input) = nullptr;
   /// Throws Error: (unreadable) it cannot be read, (usage) the text has a mistake.
-  std::unique_ptr<FrameSource> (*open)(const SourceInput& input, const SensorSettings& sensor) = nullptr;
+  std::unique_ptr<FrameSource> (*open)(const SourceInput& input, const SourceOptions& options) = nullptr;
   bool is_path = true;     ///< false: SOURCE names a device or a scene, not files
   bool is_device = false;  ///< a sensor or a camera
   bool built = true;       ///< false: this build leaves it out, and open() throws Error (usage)

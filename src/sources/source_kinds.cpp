@@ -10,13 +10,14 @@ namespace fs = std::filesystem;
 
 // Each is defined at the end of the file that reads it. A new kind: its file (added to CMakeLists.txt), and
 // its name here and in the list below.
-extern const SourceKind kOpenNi2Kind, kSyntheticKind, kWebcamKind, kImagesKind, kTumKind, kOsdKind,
-    kNumberedKind, kOniKind, kNyuKind, kVideoKind;
+extern const SourceKind kOpenNi2Kind, kSyntheticKind, kWebcamKind, kImagesKind, kTumKind, kOsdKind, kBopKind,
+    kPairedKind, kNumberedKind, kSuffixKind, kCloudsKind, kOniKind, kBagKind, kNyuKind, kVideoKind;
 
 namespace {
 
-constexpr std::array kKinds = {&kOpenNi2Kind, &kSyntheticKind, &kWebcamKind, &kImagesKind, &kTumKind,
-                               &kOsdKind,     &kNumberedKind,  &kOniKind,    &kNyuKind,    &kVideoKind};
+constexpr std::array kKinds = {&kOpenNi2Kind, &kSyntheticKind, &kWebcamKind, &kImagesKind,   &kTumKind,
+                               &kOsdKind,     &kBopKind,       &kPairedKind, &kNumberedKind, &kSuffixKind,
+                               &kCloudsKind,  &kOniKind,       &kBagKind,    &kNyuKind,      &kVideoKind};
 
 constexpr std::size_t kHeadBytes = 1024;
 

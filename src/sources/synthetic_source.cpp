@@ -160,6 +160,7 @@ SyntheticSource::SyntheticSource(const std::string& uri) : spec_(parse_synthetic
   info_.size = spec_.size;
   info_.frame_count = spec_.frames;
   info_.rate_hz = spec_.rate_hz;
+  if (spec_.noise == SyntheticSpec::Noise::kinect) info_.depth_unit_mm = 1;
   info_.sequence = spec_.scenes == 1 && !is_still();
   const double focal = 525.0 * spec_.size.width / 640;
   info_.intrinsics = {focal, focal, (spec_.size.width - 1) / 2.0, (spec_.size.height - 1) / 2.0,
@@ -234,7 +235,7 @@ extern const SourceKind kSyntheticKind = {
     .help = "a ray-cast scene with exact labels: cone, cube, cylinder, sphere, table or room",
     .recognised_by = "synthetic:",
     .recognises = [](const SourceInput& input) { return input.uri.starts_with(kScheme); },
-    .open = [](const SourceInput& input, const SensorSettings&) -> std::unique_ptr<FrameSource> {
+    .open = [](const SourceInput& input, const SourceOptions&) -> std::unique_ptr<FrameSource> {
       return std::make_unique<SyntheticSource>(input.uri);
     },
     .is_path = false,

@@ -104,8 +104,8 @@ extern const SourceKind kTumKind = {
     .recognised_by = "depth.txt",
     .recognises = has_depth_list,
     .open =
-        [](const SourceInput& input, const SensorSettings&) {
-          return open_folder(input, input.path, kTumKind.name, list_tum(input.path));
+        [](const SourceInput& input, const SourceOptions& options) {
+          return open_folder(input, input.path, kTumKind.name, list_tum(input.path), options.input);
         },
 };
 

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <map>
 #include <stdexcept>
 #include <string_view>
 #include <utility>
@@ -10,11 +11,13 @@
 #include <fmt/format.h>
 #include <opencv2/imgproc.hpp>
 
+#include "core/depth_units.hpp"
 #include "sources/colour_video.hpp"
 #include "sources/depth_video.hpp"
 #include "sources/frame_fields.hpp"
 #include "sources/meta_json.hpp"
 #include "sources/source_kind.hpp"
+#include "sources/times_file.hpp"
 
 namespace saccade {
 
@@ -24,9 +27,19 @@ namespace {
 
 constexpr std::string_view kEndings[] = {".mkv", ".nut",  ".mov", ".mp4",  ".m4v",
                                          ".avi", ".webm", ".mpg", ".mpeg", ".ogv"};
+constexpr std::string_view kDepth = "_depth";  // ends the name of a video of depth
 
-void set_camera(SourceInfo& info, const fs::path& folder) {
-  info.intrinsics = read_meta(folder).value_or(Intrinsics::guess_for(info.size));
+void take_meta(SourceInfo& info, const FolderMeta& meta) {
+  info.intrinsics = meta.camera.value_or(Intrinsics::guess_for(info.size));
+  info.rate_hz = meta.rate_hz.value_or(info.rate_hz);
+  info.sequence = meta.sequence.value_or(true);
+}
+
+// NAME_times.txt beside NAME_depth.mkv.
+fs::path times_of_video(const fs::path& path) {
+  std::string stem = path.stem().string();
+  if (stem.ends_with(kDepth)) stem.resize(stem.size() - kDepth.size());
+  return path.parent_path() / (stem + "_times.txt");
 }
 
 // Depth, with colour where there is some.
@@ -36,15 +49,21 @@ class DepthVideoSource final : public FrameSource {
 
   // `reopen` opens `depth` from its beginning.
   DepthVideoSource(const SourceInput& input, std::string_view kind, std::unique_ptr<DepthVideo> depth,
-                   OpenDepth reopen, std::unique_ptr<ColourVideo> colour)
-      : reopen_(std::move(reopen)), depth_(std::move(depth)), colour_(std::move(colour)) {
+                   OpenDepth reopen, std::unique_ptr<ColourVideo> colour, const InputSettings& settings)
+      : times_us_(read_times(times_of_video(input.path))),
+        reopen_(std::move(reopen)),
+        depth_(std::move(depth)),
+        colour_(std::move(colour)) {
     info_.uri = input.uri;
     info_.kind = kind;
     info_.size = depth_->size();
     info_.rate_hz = depth_->rate_hz();
-    info_.sequence = kind == kVideoKind.name;
-    set_camera(info_, input.path.parent_path());
+    const FolderMeta meta = read_meta(input.path.parent_path());
+    info_.notes = meta.notes;
+    info_.depth_unit_mm =
+        settings.depth_unit_mm > 0 ? settings.depth_unit_mm : meta.depth_unit_mm.value_or(1);
     tolerance_us_ = std::llround(0.75e6 / info_.rate_hz);
+    take_meta(info_, meta);
     if (!depth_->has_checksums())
       info_.notes.emplace_back("the file has no checksums: damage of its images may go unnoticed");
     if (!colour_) return;
@@ -66,11 +85,14 @@ class DepthVideoSource final : public FrameSource {
       ++wanted_;
       ++next_;
       if (!depth_->read(image_, frame.timestamp_us)) return {ReadStatus::end, ""};
-      image_.convertTo(frame.depth_mm, CV_32F);
+      depth_from_units(image_, info_.depth_unit_mm, frame.depth_mm);
     } catch (const std::runtime_error& error) {
       return {ReadStatus::rejected, fmt::format("frame {}: {}", frame.index, error.what())};
     }
-    if (!colour_ || !colour_->nearest(frame.timestamp_us, tolerance_us_, colour_image_)) {
+    const bool has_colour = colour_ && colour_->nearest(frame.timestamp_us, tolerance_us_, colour_image_);
+    if (const auto time = times_us_.find(frame.index); time != times_us_.end())
+      frame.timestamp_us = time->second;
+    if (!has_colour) {
       frame.colour.release();
       return {ReadStatus::frame, colour_ ? "no colour of that time" : ""};
     }
@@ -93,6 +115,7 @@ class DepthVideoSource final : public FrameSource {
   }
 
   SourceInfo info_;
+  std::map<std::int64_t, std::int64_t> times_us_;  // of the list beside it, which is finer than the container
   OpenDepth reopen_;
   std::unique_ptr<DepthVideo> depth_;
   std::unique_ptr<ColourVideo> colour_;  // nullptr = none
@@ -110,10 +133,9 @@ class ColourVideoSource final : public FrameSource {
     info_.kind = kind;
     info_.size = video_->size();
     info_.rate_hz = video_->rate_hz();
-    info_.sequence = kind == kVideoKind.name;
     info_.has_depth = false;
     info_.notes.emplace_back(kNoDepthNote);
-    set_camera(info_, path_.parent_path());
+    take_meta(info_, read_meta(path_.parent_path()));
   }
 
   const SourceInfo& info() const override { return info_; }
@@ -148,7 +170,6 @@ class ColourVideoSource final : public FrameSource {
 
 // The video NAME_rgb.* beside NAME_depth.*; nullptr if there is none.
 std::unique_ptr<ColourVideo> colour_of_video(const fs::path& path) {
-  constexpr std::string_view kDepth = "_depth";
   std::string stem = path.stem().string();
   if (!stem.ends_with(kDepth)) return nullptr;
   stem.resize(stem.size() - kDepth.size());
@@ -165,16 +186,16 @@ std::unique_ptr<ColourVideo> colour_of_video(const fs::path& path) {
 extern const SourceKind kVideoKind = {
     .name = "video",
     .written = "FILE.mkv",
-    .help = "a video of 16-bit depth (mm) with its colour beside it; any other video as colour without depth",
+    .help = "a video of 16-bit depth with its colour beside it; any other video as colour without depth",
     .recognised_by = "the ending",
     .endings = kEndings,
-    .open = [](const SourceInput& input, const SensorSettings&) -> std::unique_ptr<FrameSource> {
+    .open = [](const SourceInput& input, const SourceOptions& options) -> std::unique_ptr<FrameSource> {
       const auto open = [path = input.path] { return open_depth_video(path); };
       auto depth = open();
       if (!depth) return std::make_unique<ColourVideoSource>(input, kVideoKind.name);
       auto colour = colour_of_video(input.path);
       return std::make_unique<DepthVideoSource>(input, kVideoKind.name, std::move(depth), open,
-                                                std::move(colour));
+                                                std::move(colour), options.input);
     },
 };
 

@@ -68,7 +68,7 @@ extern const SourceKind kWebcamKind = {
     .help = "a camera of the system, e.g. v4l2:/dev/video0, as colour without depth",
     .recognised_by = "v4l2:",
     .recognises = [](const SourceInput& input) { return input.uri.starts_with(kScheme); },
-    .open = [](const SourceInput& input, const SensorSettings&) -> std::unique_ptr<FrameSource> {
+    .open = [](const SourceInput& input, const SourceOptions&) -> std::unique_ptr<FrameSource> {
       return std::make_unique<WebcamSource>(input.uri);
     },
     .is_path = false,

@@ -1,5 +1,7 @@
 // `saccade` with input that it cannot use: one line of error, and the exit status.
 
+#include <span>
+
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
@@ -103,11 +105,12 @@ TEST_F(RunErrorsTest, Sources) {
 
 TEST_F(RunErrorsTest, NoFrameOfTheSourceIsUsable) {
   put("0000_depth.png", cv::Mat1w(160, 160, std::uint16_t{800}));
-  put("0000_rgb.png", cv::Mat3b(80, 80, cv::Vec3b()));
+  const auto bytes = read_file(folder_ / "data/0000_depth.png");
+  write_file(folder_ / "data/0000_depth.png", std::span(bytes).first(bytes.size() / 2));
   const ProgramResult outcome =
       run_saccade({"run", in("data"), "--out", in("out"), "--intrinsics", "500,500,80,80"});
   EXPECT_EQ(outcome.status, kUnreadable);
-  EXPECT_THAT(outcome.err, HasSubstr("0000_rgb.png: 80x80, but the depth is 160x160"));
+  EXPECT_THAT(outcome.err, HasSubstr("0000_depth.png: not a valid PNG"));
   EXPECT_EQ(nlohmann::json::parse(text("out/manifest.json"))["status"], "failed");
 }
 

@@ -11,8 +11,9 @@ namespace {
 TEST(Intrinsics, GuessIsPrimeSenseScaledToTheWidth) {
   const Intrinsics camera = Intrinsics::guess_for({320, 240});
   EXPECT_DOUBLE_EQ(camera.fx, 262.5);
-  EXPECT_DOUBLE_EQ(camera.cx, 159.75);
-  EXPECT_EQ(Intrinsics::guess_for({8, 6}).cx, 3.99375) << "printed with all digits";
+  EXPECT_DOUBLE_EQ(camera.cx, 159.5);
+  EXPECT_DOUBLE_EQ(Intrinsics::guess_for({640, 360}).cy, 179.5) << "the middle, whatever the shape";
+  EXPECT_EQ(Intrinsics::guess_for({8, 6}).fx, 6.5625) << "printed with few digits";
   EXPECT_EQ(camera.origin, IntrinsicsOrigin::guess);
 }
 

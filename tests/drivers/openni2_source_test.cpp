@@ -90,7 +90,7 @@ TEST_F(Sensor, IntrinsicsComeFromTheFieldOfView) {
 TEST_F(Sensor, TakesTheModeThatIsAskedForOrNone) {
   SensorSettings settings;
   settings.mode = SensorMode{80, 60, 60};
-  const auto source = open_source("openni2:saccade-virtual://0", settings);
+  const auto source = open_source("openni2:saccade-virtual://0", {settings});
   EXPECT_EQ(source->info().rate_hz, 60);
   Frame frame = next(*source);
   EXPECT_EQ(frame.size(), cv::Size(80, 60));
@@ -98,7 +98,7 @@ TEST_F(Sensor, TakesTheModeThatIsAskedForOrNone) {
   EXPECT_EQ(frame.colour.size(), cv::Size(80, 60));
   settings.mode = SensorMode{81, 60, 60};
   try {
-    open_source("openni2", settings);
+    open_source("openni2", {settings});
     ADD_FAILURE() << "there is no such mode";
   } catch (const Error& error) {
     EXPECT_EQ(error.status(), ExitStatus::usage);
@@ -143,7 +143,7 @@ TEST_F(Sensor, EachListedModeCanBeOpened) {
   for (const SensorMode& mode : modes) {
     SensorSettings settings;
     settings.mode = mode;
-    const auto source = open_source("openni2", settings);
+    const auto source = open_source("openni2", {settings});
     EXPECT_EQ(source->info().size, cv::Size(mode.width, mode.height));
     EXPECT_EQ(source->info().rate_hz, mode.rate_hz);
   }
@@ -177,13 +177,13 @@ TEST_F(Sensor, OneThatIsNotThereIsAnErrorOrIsWaitedFor) {
   SensorSettings settings;
   settings.wait_s = 0;
   try {
-    open_source("openni2:absent://1", settings);
+    open_source("openni2:absent://1", {settings});
     ADD_FAILURE() << "it is not there";
   } catch (const Error& error) {
     EXPECT_EQ(error.status(), ExitStatus::unreadable);
   }
   settings.wait_s = 1000;
-  const auto source = open_source("openni2:absent://1", settings);
+  const auto source = open_source("openni2:absent://1", {settings});
   EXPECT_EQ(source->state().connection, SourceState::Connection::waiting);
   EXPECT_TRUE(source->controls()->modes().empty());
   Frame frame;
@@ -212,7 +212,7 @@ TEST_F(Sensor, OpensAndClosesAtAnyMoment) {
   SensorSettings settings;
   settings.mode = SensorMode{160, 120, 60};
   for (int i = 0; i < 40; ++i) {
-    const auto source = open_source("openni2", settings);
+    const auto source = open_source("openni2", {settings});
     for (auto frames = dice() % 4; frames > 0; --frames) next(*source);
     std::this_thread::sleep_for(std::chrono::microseconds(dice() % 12000));
   }

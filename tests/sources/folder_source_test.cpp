@@ -4,6 +4,8 @@
 #include <filesystem>
 #include <span>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -21,6 +23,7 @@ namespace saccade {
 namespace {
 
 namespace fs = std::filesystem;
+using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -55,6 +58,17 @@ class FolderSourceTest : public FolderTest {
     EXPECT_EQ(result.status, ReadStatus::rejected);
     return result.reason;
   }
+
+  // What the second frame lacks, and why.
+  std::string lack() const {
+    const auto source = open_source(folder_.string());
+    Frame frame;
+    source->seek(1);
+    const ReadResult result = source->read(frame, kNoWait);
+    EXPECT_EQ(result.status, ReadStatus::frame);
+    EXPECT_EQ(frame.depth_mm(3, 4), 1000.0F) << "sound depth stays";
+    return result.reason;
+  }
 };
 
 TEST_F(FolderSourceTest, ReadsFramesInTheOrderOfTheirNumbersWithColourAndLabels) {
@@ -72,7 +86,7 @@ TEST_F(FolderSourceTest, ReadsFramesInTheOrderOfTheirNumbersWithColourAndLabels)
   EXPECT_EQ(frame.index, 0);
   EXPECT_EQ(frame.name, "9");
   EXPECT_EQ(frame.timestamp_us, 0);
-  EXPECT_EQ(frame.depth_mm(3, 4), 65535.0F);
+  EXPECT_EQ(frame.depth_mm(3, 4), 0.0F) << "65535 is no reading";
   EXPECT_EQ(frame.colour(3, 4), cv::Vec3b(1, 2, 3)) << "BGR";
   EXPECT_EQ(frame.truth.labels(3, 4), 7);
   EXPECT_EQ(frame.truth.classes(3, 4), 300) << "16 bits";
@@ -133,6 +147,53 @@ TEST_F(FolderSourceTest, MetaGivesTheCameraAndItsAbsenceIsAGuess) {
   EXPECT_EQ(camera.fy, 501.5);
 }
 
+TEST_F(FolderSourceTest, TheUnitOfDepthIsThatOfTheUserElseOfMetaElseMillimetres) {
+  put_depth("0_depth.png", 12345);
+  const auto depth_of = [&](double given) {
+    const auto source = open_source(folder_.string(), {{}, {.depth_unit_mm = given}});
+    Frame frame;
+    EXPECT_EQ(source->read(frame, kNoWait).status, ReadStatus::frame);
+    return frame.depth_mm(3, 4);
+  };
+  EXPECT_EQ(depth_of(0), 12345.0F);
+  put_text("meta.json", R"({"depth_unit_mm": 0.1})");
+  EXPECT_EQ(depth_of(0), 1234.5F);
+  EXPECT_EQ(depth_of(0.25), 12345 * 0.25F);
+  // As Open3D, RealSense and BOP write it.
+  for (const auto& [scale, unit] : {std::pair{"5000", 0.2}, std::pair{"0.001", 1.0}, std::pair{"0.1", 0.1}}) {
+    put_text("meta.json", std::string(R"({"depth_scale": )") + scale + "}");
+    EXPECT_EQ(depth_of(0), static_cast<float>(12345 * unit)) << scale;
+    EXPECT_THAT(open_source(folder_.string())->info().notes, Contains(HasSubstr("one unit is"))) << scale;
+  }
+}
+
+TEST_F(FolderSourceTest, DepthInAWrongUnitIsReported) {
+  put_depth("0_depth.png", 20000);  // 2 m in tenths of a millimetre
+  EXPECT_THAT(open_source(folder_.string())->info().notes,
+              ElementsAre("depth is implausible, its median is 20 m; its unit is likely 0.1 mm: try "
+                          "--depth-unit 0.1"));
+  EXPECT_THAT(open_source(folder_.string(), {{}, {.depth_unit_mm = 0.1}})->info().notes, IsEmpty());
+  put_depth("0_depth.png", 30);
+  EXPECT_THAT(open_source(folder_.string())->info().notes, ElementsAre(HasSubstr("its median is 30 mm")));
+  put_depth("0_depth.png", 4000);
+  EXPECT_THAT(open_source(folder_.string())->info().notes, IsEmpty());
+  EXPECT_THAT(open_source(folder_.string(), {{}, {.depth_unit_mm = 100}})->info().notes,
+              ElementsAre(HasSubstr("nothing beyond 65.5 m can be used")));
+}
+
+TEST_F(FolderSourceTest, TimesAreThoseOfTheList) {
+  for (const int i : {0, 1, 3}) put_depth(std::to_string(i) + "_depth.png", 1000 + i);
+  put_text("times.txt", "# frame microseconds\n0 -5\n3 900000\n1 70\n");
+  const auto source = open_source(folder_.string());
+  EXPECT_TRUE(source->info().sequence);
+  std::vector<std::int64_t> times;
+  for (Frame frame; source->read(frame, kNoWait).status == ReadStatus::frame;)
+    times.push_back(frame.timestamp_us);
+  EXPECT_THAT(times, ElementsAre(-5, 70, 900000));
+  put_text("times.txt", "0 1\n1 x\n");
+  EXPECT_THAT(error(), HasSubstr("times.txt:2"));
+}
+
 TEST_F(FolderSourceTest, BrokenMetaIsAnError) {
   put_depth("0_depth.png", 1000);
   for (const char* text :
@@ -179,26 +240,30 @@ TEST_F(FolderSourceTest, AFrameCutShortIsRejectedAndTheNextIsRead) {
   EXPECT_EQ(frame.depth_mm(0, 0), 1002.0F);
 }
 
-TEST_F(FolderSourceTest, OtherSizesOfDepthColourAndLabelsAreRejected) {
+TEST_F(FolderSourceTest, CompanionsThatCannotBeUsedDoNotCostTheDepth) {
   put_depth("0_depth.png", 1000);
   put_depth("1_depth.png", 1000, {32, 24});
   EXPECT_THAT(rejection(), HasSubstr("32x24, but the first frame is 16x12"));
   put_depth("1_depth.png", 1000);
-  put("1_rgb.png", cv::Mat3b(24, 32, cv::Vec3b()));
-  EXPECT_THAT(rejection(), HasSubstr("1_rgb.png: 32x24, but the depth is 16x12"));
+  put("1_rgb.png", cv::Mat3b(24, 32, cv::Vec3b(9, 8, 7)));
+  EXPECT_EQ(lack(), "") << "it is scaled";
+  EXPECT_THAT(open_source(folder_.string())->info().notes,
+              ElementsAre("colour of 32x24 is scaled to the depth's 16x12"));
+  put_text("1_rgb.png", "not a picture");
+  EXPECT_THAT(lack(), HasSubstr("no colour: 1_rgb.png: "));
   fs::remove(folder_ / "1_rgb.png");
   put("1_label.png", cv::Mat1b(24, 32, std::uint8_t{1}));
-  EXPECT_THAT(rejection(), HasSubstr("1_label.png"));
+  EXPECT_THAT(lack(), HasSubstr("1_label.png"));
   put("1_label.png", cv::Mat3b(12, 16, cv::Vec3b()));
-  EXPECT_THAT(rejection(), HasSubstr("labels must be grey or palette"));
+  EXPECT_THAT(lack(), HasSubstr("labels must be grey or palette"));
   put("1_label.png", cv::Mat1b(12, 16, std::uint8_t{1}));
   put("1_class.png", cv::Mat3b(12, 16));
-  EXPECT_THAT(rejection(), HasSubstr("1_class.png: classes must be grey or palette"));
+  EXPECT_THAT(lack(), HasSubstr("1_class.png: labels must be grey or palette"));
   put("1_class.png", cv::Mat1b(12, 15));
-  EXPECT_THAT(rejection(), HasSubstr("1_class.png: 15x12, but the depth is 16x12"));
+  EXPECT_THAT(lack(), HasSubstr("1_class.png: 15x12, but the depth is 16x12"));
 }
 
-TEST_F(FolderSourceTest, AJpegThatIsCutOrLiesAboutItsSizeIsRejected) {
+TEST_F(FolderSourceTest, AJpegThatIsCutOrLiesAboutItsSizeIsNoColour) {
   put_depth("0_depth.png", 1000);
   put_depth("1_depth.png", 1000);
   cv::Mat3b image(12, 16);
@@ -208,7 +273,7 @@ TEST_F(FolderSourceTest, AJpegThatIsCutOrLiesAboutItsSizeIsRejected) {
   const std::span<const std::uint8_t> all(jpeg);
   for (const std::size_t bytes : {all.size() - 2, all.size() * 3 / 4, std::size_t{200}, std::size_t{3}}) {
     write_file(folder_ / "1_rgb.jpg", all.first(bytes));
-    EXPECT_THAT(rejection(), HasSubstr("1_rgb.jpg: ")) << bytes;
+    EXPECT_THAT(lack(), HasSubstr("1_rgb.jpg: ")) << bytes;
   }
   const std::array<std::uint8_t, 2> frame_header = {0xff, 0xc0};
   const auto at = std::ranges::search(jpeg, frame_header).begin() - jpeg.begin();
@@ -217,7 +282,7 @@ TEST_F(FolderSourceTest, AJpegThatIsCutOrLiesAboutItsSizeIsRejected) {
     jpeg[static_cast<std::size_t>(at + i + 1)] = 0xdc;
   }
   write_file(folder_ / "1_rgb.jpg", jpeg);
-  EXPECT_THAT(rejection(), HasSubstr("1_rgb.jpg: 65500x65500 is larger than 8192"));
+  EXPECT_THAT(lack(), HasSubstr("1_rgb.jpg: 65500x65500 is larger than 8192"));
 }
 
 // A PNG of any size that holds nothing.
@@ -245,7 +310,7 @@ TEST_F(FolderSourceTest, ImagesOfTooManyPixelsAreNotDecoded) {
   put_depth("1_depth.png", 1000);
   for (const char* name : {"1_rgb.png", "1_label.png", "1_class.png"}) {
     write_file(folder_ / name, empty_png(30000, 30000, 8));
-    EXPECT_THAT(rejection(), HasSubstr(std::string(name) + ": 30000x30000 is larger than 8192"));
+    EXPECT_THAT(lack(), HasSubstr(std::string(name) + ": 30000x30000 is larger than 8192"));
     fs::remove(folder_ / name);
   }
 }

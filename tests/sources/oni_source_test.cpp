@@ -175,6 +175,55 @@ TEST_F(OniSourceTest, ColourOfAnotherSizeIsScaledWithANote) {
   EXPECT_TRUE(frame.colour.empty()) << "42 ms away is another moment";
 }
 
+// A recording of three frames of depth and colour with these times.
+void write_streams(const fs::path& file, std::uint64_t depth_step_us, std::uint64_t colour_begin_us,
+                   std::uint64_t colour_step_us) {
+  OniRecordWriter writer(file, true);
+  for (const std::uint32_t id : {1U, 2U}) {
+    OniNodeFields fields;
+    fields.name = id == 1 ? "Depth" : "Image";
+    fields.type = id == 1 ? OniNodeType::depth : OniNodeType::image;
+    fields.codec = OniCodec::none;
+    writer.add_node(id, fields);
+    std::array<std::uint8_t, 12> mode{};
+    store_le(&mode[0], std::uint32_t{2});
+    store_le(&mode[4], std::uint32_t{2});
+    store_le(&mode[8], std::uint32_t{30});
+    writer.add_property(id, OniRecordType::general_property, oni_property::kMode, mode);
+    writer.add_int(id, oni_property::kOniFormat,
+                   static_cast<std::uint64_t>(id == 1 ? OniPixelFormat::depth_1mm : OniPixelFormat::rgb888));
+  }
+  writer.begin();
+  for (std::uint8_t k = 0; k < 3; ++k) {
+    ASSERT_TRUE(writer.write_frame(1, k * depth_step_us, std::vector<std::uint8_t>(8, 1)));
+    ASSERT_TRUE(
+        writer.write_frame(2, colour_begin_us + k * colour_step_us, std::vector<std::uint8_t>(12, k)));
+  }
+  writer.close();
+}
+
+TEST_F(OniSourceTest, WhereTimesDoNotFitColourIsPairedByOrder) {
+  struct Case {
+    const char* what;
+    std::uint64_t depth_step_us, colour_begin_us, colour_step_us;
+  };
+  for (const Case& c : {Case{"all times are zero", 0, 0, 0}, Case{"depth has no times", 0, 0, 33'333},
+                        Case{"colour has no times", 33'333, 0, 0},
+                        Case{"the clocks differ", 33'333, 9'000'000'000, 33'333}}) {
+    SCOPED_TRACE(c.what);
+    write_streams(file(), c.depth_step_us, c.colour_begin_us, c.colour_step_us);
+    OniSource source(file());
+    EXPECT_THAT(source.info().notes, Contains(HasSubstr("paired by their order")));
+    Frame frame;
+    for (std::uint8_t k = 0; k < 3; ++k) {
+      ASSERT_EQ(source.read(frame, kNoWait).status, ReadStatus::frame);
+      ASSERT_FALSE(frame.colour.empty());
+      EXPECT_EQ(frame.colour(0, 0)[0], k);
+      EXPECT_NEAR(static_cast<double>(frame.timestamp_us), k * 1e6 / 30, 1);
+    }
+  }
+}
+
 TEST_F(OniSourceTest, WithoutDepthItIsUnreadable) {
   OniRecordWriter writer(file(), false);
   OniNodeFields fields;

@@ -129,8 +129,9 @@ TEST_F(OsdSourceTest, FramesThatDoNotFitAreNamed) {
   const auto source = open();
   Frame frame;
   const ReadResult a = source->read(frame, kNoWait);
-  EXPECT_EQ(a.status, ReadStatus::rejected);
-  EXPECT_EQ(a.reason, "a.png: 12x10, but the depth is 24x20");
+  EXPECT_EQ(a.status, ReadStatus::frame) << "labels do not cost the depth";
+  EXPECT_EQ(a.reason, "no labels: a.png: 12x10, but the depth is 24x20");
+  EXPECT_TRUE(frame.truth.labels.empty());
   EXPECT_EQ(source->read(frame, kNoWait).status, ReadStatus::frame);
   EXPECT_THAT(source->read(frame, kNoWait).reason, HasSubstr("c.pcd: 12x10, but the first frame is 24x20"));
   EXPECT_THAT(source->read(frame, kNoWait).reason, HasSubstr("d.pcd: not a sound PCD"));

@@ -82,8 +82,11 @@ TEST_F(SourceKinds, TheEndingOfAFileDecidesInAnyCase) {
   EXPECT_EQ(kind(put("a.oni")), "oni");
   EXPECT_EQ(kind(put("A.ONI")), "oni");
   EXPECT_EQ(kind(put("a.mat")), "nyu");
+  EXPECT_EQ(kind(put("b.PNG")), "images");
+  for (const char* name : {"a.pcd", "b.PLY"}) EXPECT_EQ(kind(put(name)), "clouds") << name;
+  for (const char* name : {"a.bag", "b.MCAP", "c.db3"}) EXPECT_EQ(kind(put(name)), "bag") << name;
   for (const char* name : {"a.mkv", "b/c.MP4", "d.nut", "e.avi"}) EXPECT_EQ(kind(put(name)), "video") << name;
-  for (const char* name : {"b.png", "mkv", "c", ".oni"}) EXPECT_EQ(kind(put(name)), "none") << name;
+  for (const char* name : {"b.txt", "mkv", "c", ".oni"}) EXPECT_EQ(kind(put(name)), "none") << name;
   EXPECT_EQ(kind(folder("absent.oni")), "none");
 }
 
@@ -102,6 +105,23 @@ TEST_F(SourceKinds, TheFilesInAFolderDecide) {
   EXPECT_EQ(kind(folder("tum")), "tum");
   EXPECT_EQ(kind(folder("osd")), "osd");
   EXPECT_EQ(kind(folder("other")), "none");
+  put("NUMBERED/12_DEPTH.PNG");
+  put("paired/depth/a.png");
+  put("paired/color/a.jpg");
+  put("bop/depth/000000.png");
+  put("bop/rgb/000000.png");
+  put("bop/scene_camera.json");
+  put("scenes/frame-000000.depth.png");
+  put("ycb/000001-depth.png");
+  put("clouds/0.pcd");
+  put("ros/metadata.yaml");
+  put("ros/a_0.mcap");
+  EXPECT_EQ(kind(folder("NUMBERED")), "folder");
+  EXPECT_EQ(kind(folder("paired")), "paired");
+  EXPECT_EQ(kind(folder("bop")), "bop");
+  for (const char* name : {"scenes", "ycb"}) EXPECT_EQ(kind(folder(name)), "suffix") << name;
+  EXPECT_EQ(kind(folder("clouds")), "clouds");
+  EXPECT_EQ(kind(folder("ros")), "bag");
 }
 
 TEST_F(SourceKinds, ErrorsSayWhatIsExpected) {
@@ -109,8 +129,9 @@ TEST_F(SourceKinds, ErrorsSayWhatIsExpected) {
               AllOf(HasSubstr("no such source: nowhere"), HasSubstr("FILE.oni"), HasSubstr("openni2[:URI]")));
   EXPECT_THAT(complaint(folder("absent.oni"), ExitStatus::unreadable),
               AllOf(HasSubstr("no such source"), HasSubstr("check the path")));
-  EXPECT_THAT(complaint(put("notes.txt", "text"), ExitStatus::unreadable),
-              AllOf(HasSubstr("not a kind of file that can be read"), HasSubstr(".oni .mat .mkv")));
+  EXPECT_THAT(
+      complaint(put("notes.txt", "text"), ExitStatus::unreadable),
+      AllOf(HasSubstr("not a kind of file that can be read"), HasSubstr(".oni .bag .mcap .db3 .mat .mkv")));
   put("empty/notes.txt");
   EXPECT_THAT(complaint(folder("empty"), ExitStatus::unreadable),
               AllOf(HasSubstr("no frames in the folder"), HasSubstr("NNNN_depth.png"), HasSubstr("depth.txt"),

@@ -35,7 +35,9 @@ void write_side(const fs::path& folder, const Computed& computed, const OverlayS
   const Result& result = computed.result;
   Settings settings = computed.settings;
   settings.overlay = style;
-  write_frame(folder, result, {"maps", "overlay", "depth", "colour", "cloud"}, 0, style);
+  DatasetWriter dataset(folder, {});
+  dataset.add(result.frame);
+  write_frame(folder, result, {"maps", "overlay", "depth", "colour", "cloud"}, 0, dataset, style);
   write_file(folder / fmt::format("{:06}_fixations.json", result.frame.index), fixations_json(result) + "\n");
   write_file(folder / "settings.toml", std::string_view(settings_toml(settings)));
 }

@@ -1,0 +1,204 @@
+// Recordings of ROS: .bag, .mcap, .db3, and the folders in which ROS 2 keeps them.
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+#include <opencv2/imgproc.hpp>
+
+#include "core/error.hpp"
+#include "sources/bag_topics.hpp"
+#include "sources/frame_fields.hpp"
+#include "sources/ros_messages.hpp"
+#include "sources/source_kind.hpp"
+
+namespace saccade {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr std::string_view kEndings[] = {".bag", ".mcap", ".db3"};
+constexpr std::size_t kMostNotes = 5;  // of problems, one by one
+constexpr double kDefaultRateHz = 30;
+
+// By the lower quartile of the distances of the stamps, since messages may be missing.
+double measure_rate_hz(const std::vector<BagMessage>& messages) {
+  std::vector<std::int64_t> steps;
+  for (std::size_t i = 1; i < messages.size(); ++i)
+    if (messages[i].stamp_ns > messages[i - 1].stamp_ns)
+      steps.push_back(messages[i].stamp_ns - messages[i - 1].stamp_ns);
+  if (steps.empty()) return kDefaultRateHz;
+  const auto quartile = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 4);
+  std::ranges::nth_element(steps, quartile);
+  return 1e9 / static_cast<double>(*quartile);
+}
+
+class BagSource final : public FrameSource {
+ public:
+  BagSource(const SourceInput& input, std::string_view kind, std::unique_ptr<BagFile> file,
+            const InputSettings& settings)
+      : file_(std::move(file)) {
+    std::vector<BagStream> streams = list_streams(*file_);
+    const ChosenStreams chosen = choose_streams(streams, settings, input.uri);
+    depth_ = std::move(streams[chosen.depth]);
+    if (chosen.colour) colour_ = std::move(streams[*chosen.colour]);
+    unit_mm_ = settings.depth_unit_mm > 0 ? settings.depth_unit_mm : 1;
+    info_.uri = input.uri;
+    info_.kind = kind;
+    info_.sequence = true;
+    info_.frame_count = static_cast<std::int64_t>(depth_.messages.size());
+    info_.rate_hz = measure_rate_hz(depth_.messages);
+    info_.size = first_size();
+    info_.depth_unit_mm = depth_.encoding.starts_with("32FC1") ? 0 : unit_mm_;
+    info_.intrinsics = Intrinsics::guess_for(info_.size);
+    if (chosen.camera) read_camera(streams[*chosen.camera]);
+    tolerance_ns_ = std::llround(0.75e9 / info_.rate_hz);
+    if (colour_)
+      tolerance_ns_ =
+          std::max<std::int64_t>(tolerance_ns_, std::llround(0.75e9 / measure_rate_hz(colour_->messages)));
+    note_topics(chosen, streams);
+    note_problems();
+  }
+
+  const SourceInfo& info() const override { return info_; }
+  void seek(std::int64_t index) override { next_ = std::max<std::int64_t>(index, 0); }
+
+  ReadResult read(Frame& frame, std::chrono::milliseconds) override {
+    if (next_ >= *info_.frame_count) return {ReadStatus::end, ""};
+    begin_frame(frame, info_, next_);
+    const BagMessage& message = depth_.messages[static_cast<std::size_t>(next_++)];
+    frame.timestamp_us = message.stamp_ns / 1000;
+    try {
+      ros_depth(read_ros_image(file_->read(message.place), depth_.topic), unit_mm_, frame.depth_mm);
+      if (frame.size() != info_.size)
+        throw std::runtime_error(fmt::format("{}x{} instead of {}x{}", frame.size().width,
+                                             frame.size().height, info_.size.width, info_.size.height));
+    } catch (const std::runtime_error& error) {
+      return {ReadStatus::rejected, fmt::format("frame {}: {}", frame.index, error.what())};
+    }
+    return {ReadStatus::frame, read_colour(message.stamp_ns, frame.colour)};
+  }
+
+ private:
+  // That of the first depth image that can be read.
+  cv::Size first_size() {
+    std::string problem;
+    for (const BagMessage& message : depth_.messages) try {
+        cv::Mat1f depth;
+        ros_depth(read_ros_image(file_->read(message.place), depth_.topic), unit_mm_, depth);
+        return depth.size();
+      } catch (const std::runtime_error& error) {
+        if (problem.empty()) problem = error.what();
+      }
+    throw unreadable("no depth image can be read, the first: " + problem, info_.uri,
+                     "other topics can be chosen with --topics");
+  }
+
+  void read_camera(const BagStream& stream) {
+    try {
+      const auto camera = read_ros_camera(file_->read(stream.messages.front().place), stream.topic);
+      if (camera) info_.intrinsics = *camera;
+    } catch (const std::runtime_error& error) {
+      info_.notes.push_back(fmt::format("{}: {}", stream.topic.name, error.what()));
+    }
+  }
+
+  void note_topics(const ChosenStreams& chosen, const std::vector<BagStream>& streams) {
+    std::string text = "depth from " + depth_.topic.name;
+    if (colour_) text += ", colour from " + colour_->topic.name;
+    if (chosen.camera) text += ", camera from " + streams[*chosen.camera].topic.name;
+    info_.notes.push_back(text);
+    const std::string& name = depth_.topic.name;
+    if (colour_ && name.find("aligned") == std::string::npos && name.find("registered") == std::string::npos)
+      info_.notes.emplace_back("the topics do not say whether colour is registered to depth; assuming it is");
+  }
+
+  void note_problems() {
+    const auto& problems = file_->problems();
+    for (std::size_t i = 0; i < std::min(problems.size(), kMostNotes); ++i)
+      info_.notes.push_back(problems[i]);
+    if (problems.size() > kMostNotes)
+      info_.notes.push_back(fmt::format("{} more problems", problems.size() - kMostNotes));
+  }
+
+  // The colour nearest in time, scaled to the depth's size; returns why there is none.
+  std::string read_colour(std::int64_t stamp_ns, cv::Mat3b& colour) {
+    colour.release();
+    if (!colour_) return "";
+    const auto& messages = colour_->messages;
+    auto nearest = std::ranges::lower_bound(messages, stamp_ns, {}, &BagMessage::stamp_ns);
+    if (nearest == messages.end() ||
+        (nearest != messages.begin() &&
+         stamp_ns - std::prev(nearest)->stamp_ns <= nearest->stamp_ns - stamp_ns))
+      --nearest;
+    if (std::abs(nearest->stamp_ns - stamp_ns) > tolerance_ns_) return "no colour of that time";
+    try {
+      const cv::Mat3b image = ros_colour(read_ros_image(file_->read(nearest->place), colour_->topic));
+      if (image.size() == info_.size)
+        colour = image;
+      else
+        cv::resize(image, colour, info_.size, 0, 0,
+                   image.size().area() > info_.size.area() ? cv::INTER_AREA : cv::INTER_LINEAR);
+      return "";
+    } catch (const std::runtime_error& error) {
+      return fmt::format("no colour: {}", error.what());
+    }
+  }
+
+  std::unique_ptr<BagFile> file_;
+  SourceInfo info_;
+  BagStream depth_;
+  std::optional<BagStream> colour_;
+  double unit_mm_ = 1;  // of 16-bit depth
+  std::int64_t tolerance_ns_ = 0, next_ = 0;
+};
+
+bool is_bag(const fs::path& file) {
+  return std::ranges::count(kEndings, std::string_view(ending_of(file))) > 0;
+}
+
+bool is_ros2_folder(const SourceInput& input) {
+  std::error_code code;
+  if (input.type != SourceInput::Type::folder || !fs::exists(input.path / "metadata.yaml", code))
+    return false;
+  for (fs::directory_iterator file(input.path, code), end; !code && file != end; file.increment(code))
+    if (is_bag(file->path())) return true;
+  return false;
+}
+
+// The recording in the folder of a ROS 2 bag.
+fs::path file_of(const SourceInput& input) {
+  if (input.type != SourceInput::Type::folder) return input.path;
+  std::vector<fs::path> files;
+  for (const auto& file : fs::directory_iterator(input.path))
+    if (is_bag(file.path())) files.push_back(file.path());
+  if (files.size() > 1)
+    throw unreadable(fmt::format("the recording is split into {} files", files.size()), input.uri,
+                     "name one of them");
+  return files.at(0);
+}
+
+std::unique_ptr<BagFile> open_bag(const fs::path& path) {
+  const std::string ending = ending_of(path);
+  if (ending == ".mcap") return open_mcap(path);
+  return ending == ".db3" ? open_db3(path) : open_ros1_bag(path);
+}
+
+}  // namespace
+
+extern const SourceKind kBagKind = {
+    .name = "bag",
+    .written = "FILE.bag",
+    .help =
+        "a recording of ROS 1 (.bag) or ROS 2 (.mcap, .db3, or its folder); --topics chooses among several",
+    .recognised_by = "metadata.yaml beside an .mcap or .db3",
+    .endings = kEndings,
+    .recognises = is_ros2_folder,
+    .open = [](const SourceInput& input, const SourceOptions& options) -> std::unique_ptr<FrameSource> {
+      return std::make_unique<BagSource>(input, kBagKind.name, open_bag(file_of(input)), options.input);
+    },
+};
+
+}  // namespace saccade

@@ -1,0 +1,200 @@
+// MCAP, the container of ROS 2 (mcap.dev/spec): records of u8 type, u64 length, content; messages are records
+// of their own or within chunks.
+#include <algorithm>
+#include <array>
+#include <map>
+#include <stdexcept>
+
+#include <fmt/format.h>
+#include <libdeflate.h>
+
+#include "core/error.hpp"
+#include "oni/bytes.hpp"
+#include "oni/input_file.hpp"
+#include "sources/bag_file.hpp"
+#include "sources/chunk_cache.hpp"
+#include "sources/decompress.hpp"
+
+namespace saccade {
+namespace {
+
+constexpr std::array<std::uint8_t, 8> kMagic = {0x89, 'M', 'C', 'A', 'P', '0', '\r', '\n'};
+constexpr std::uint8_t kSchema = 3, kChannel = 4, kMessage = 5, kChunk = 6, kDataEnd = 15, kFooter = 2;
+constexpr std::size_t kRecordHeader = 9, kMessageFields = 22;
+constexpr std::uint64_t kLargestSmallRecord = 16u << 20;  // of schemas and channels
+constexpr std::size_t kBeginning = 256;                   // bytes of a message outside of a chunk
+
+using Bytes = BagFile::Bytes;
+
+// A string with its length before it.
+std::string take_text(ByteCursor& cursor) {
+  const auto size = cursor.take<std::uint32_t>();
+  const auto text = size ? cursor.take_bytes(*size) : std::nullopt;
+  if (!text) throw std::runtime_error("a record is too short");
+  return {text->begin(), text->end()};
+}
+
+template <typename T>
+T take(ByteCursor& cursor) {
+  const auto value = cursor.take<T>();
+  if (!value) throw std::runtime_error("a record is too short");
+  return *value;
+}
+
+std::string plain_type(std::string type) {
+  if (const auto msg = type.find("/msg/"); msg != std::string::npos) type.erase(msg, 4);
+  return type;
+}
+
+class McapFile final : public BagFile {
+ public:
+  explicit McapFile(const std::filesystem::path& path) : file_(path) {
+    std::array<std::uint8_t, kMagic.size()> magic{};
+    if (file_.read(0, magic) != magic.size() || magic != kMagic)
+      throw unreadable("not an MCAP file", file_.name(), "is it the right file?");
+  }
+
+  void scan(const Visit& visit) override {
+    std::uint64_t position = kMagic.size();
+    try {
+      while (scan_record(position, visit)) {
+      }
+    } catch (const std::runtime_error& error) {
+      problems_.push_back(fmt::format("at byte {}: {}", position, error.what()));
+    }
+  }
+
+  const std::vector<BagTopic>& topics() const override { return topics_; }
+  const std::vector<std::string>& problems() const override { return problems_; }
+
+  Bytes read(const BagPlace& place) override {
+    if (place.part == 0) {
+      message_.resize(place.size);
+      if (file_.read(place.offset, message_) != place.size) throw std::runtime_error("the file is cut");
+      return message_;
+    }
+    const Bytes chunk = chunk_at(place.part);
+    if (place.offset + place.size > chunk.size()) throw std::runtime_error("the chunk is too short");
+    return chunk.subspan(place.offset, place.size);
+  }
+
+ private:
+  // Reads the record at `position` and moves on; false at the end of the data.
+  bool scan_record(std::uint64_t& position, const Visit& visit) {
+    std::array<std::uint8_t, kRecordHeader> header{};
+    if (file_.read(position, header) != header.size())
+      throw std::runtime_error("the file is truncated, or was not closed");
+    const std::uint8_t type = header[0];
+    const auto size = load_le<std::uint64_t>(&header[1]);
+    const std::uint64_t content = position + kRecordHeader;
+    if (type == kDataEnd || type == kFooter) return false;
+    if (size > file_.size() - content) throw std::runtime_error("the file is truncated, or was not closed");
+    if (type == kSchema || type == kChannel) {
+      if (size > kLargestSmallRecord) throw std::runtime_error("a record is too large");
+      message_.resize(size);
+      if (file_.read(content, message_) != size) throw std::runtime_error("the file cannot be read");
+      take_definition(type, message_);
+    } else if (type == kMessage && size >= kMessageFields) {
+      message_.resize(std::min<std::uint64_t>(size, kMessageFields + kBeginning));
+      if (file_.read(content, message_) != message_.size())
+        throw std::runtime_error("the file cannot be read");
+      give(message_, size, {0, content, 0}, visit);
+    } else if (type == kChunk) {
+      scan_chunk(content, visit);
+    }
+    position = content + size;
+    return true;
+  }
+
+  // A damaged chunk costs its messages only.
+  void scan_chunk(std::uint64_t content, const Visit& visit) {
+    try {
+      scan_records(content, chunk_at(content), visit);
+    } catch (const std::runtime_error& error) {
+      problems_.push_back(
+          fmt::format("messages of the chunk at byte {} are lost: {}", content, error.what()));
+    }
+  }
+
+  void scan_records(std::uint64_t content, Bytes chunk, const Visit& visit) {
+    std::size_t at = 0;
+    while (chunk.size() - at >= kRecordHeader) {
+      const std::uint8_t type = chunk[at];
+      const auto size = load_le<std::uint64_t>(&chunk[at + 1]);
+      at += kRecordHeader;
+      if (size > chunk.size() - at) throw std::runtime_error("a record is longer than its chunk");
+      const Bytes record = chunk.subspan(at, size);
+      if (type == kSchema || type == kChannel) take_definition(type, record);
+      if (type == kMessage && size >= kMessageFields) give(record, size, {content, at, 0}, visit);
+      at += size;
+    }
+  }
+
+  Bytes chunk_at(std::uint64_t content) {
+    return chunks_.get(content, [this](std::uint64_t position, auto& bytes) { load_chunk(position, bytes); });
+  }
+
+  void load_chunk(std::uint64_t content, std::vector<std::uint8_t>& bytes) {
+    constexpr std::size_t kMostHeader = 64;
+    constexpr std::uint64_t kMostCompressed = 512u << 20;
+    std::array<std::uint8_t, kMostHeader> header{};
+    ByteCursor cursor(std::span<const std::uint8_t>(header).first(file_.read(content, header)));
+    static_cast<void>(take<std::uint64_t>(cursor));  // first and last time
+    static_cast<void>(take<std::uint64_t>(cursor));
+    const auto size = take<std::uint64_t>(cursor);
+    const auto checksum = take<std::uint32_t>(cursor);
+    const std::string method = take_text(cursor);
+    const auto compressed = take<std::uint64_t>(cursor);
+    const std::uint64_t begin = content + kMostHeader - cursor.rest().size();
+    if (compressed > kMostCompressed || begin > file_.size() || compressed > file_.size() - begin)
+      throw std::runtime_error("it is longer than the file");
+    compressed_.resize(compressed);
+    if (file_.read(begin, compressed_) != compressed) throw std::runtime_error("the file cannot be read");
+    decompress(method, compressed_, size, bytes);
+    if (checksum != 0 && libdeflate_crc32(0, bytes.data(), bytes.size()) != checksum)
+      throw std::runtime_error("its checksum does not fit");
+  }
+
+  void take_definition(std::uint8_t type, Bytes record) {
+    ByteCursor cursor(record);
+    const auto id = take<std::uint16_t>(cursor);
+    if (type == kSchema) {
+      schemas_[id] = take_text(cursor);
+      return;
+    }
+    if (channels_.contains(id)) return;  // repeated in each chunk
+    const auto schema = take<std::uint16_t>(cursor);
+    BagTopic topic;
+    topic.name = take_text(cursor);
+    topic.encoding = take_text(cursor) == "ros1" ? BagEncoding::ros1 : BagEncoding::cdr;
+    topic.type = plain_type(schemas_[schema]);
+    channels_[id] = topics_.size();
+    topics_.push_back(std::move(topic));
+  }
+
+  // `record`: the message record or its beginning; `size`: of the whole record.
+  void give(Bytes record, std::uint64_t size, BagPlace place, const Visit& visit) {
+    const auto channel = channels_.find(load_le<std::uint16_t>(record.data()));
+    if (channel == channels_.end() || size - kMessageFields > kLargestMessage) return;
+    if (!topics_[channel->second].type.starts_with("sensor_msgs/")) return;
+    place.offset += kMessageFields;
+    place.size = static_cast<std::uint32_t>(size - kMessageFields);
+    visit(channel->second, load_le<std::int64_t>(&record[6]), record.subspan(kMessageFields), place);
+  }
+
+  InputFile file_;
+  std::map<std::uint16_t, std::string> schemas_;
+  std::map<std::uint16_t, std::size_t> channels_;  // number in topics_
+  std::vector<BagTopic> topics_;
+  std::vector<std::string> problems_;
+  ChunkCache chunks_;
+  std::vector<std::uint8_t> compressed_, message_;
+};
+
+}  // namespace
+
+std::unique_ptr<BagFile> open_mcap(const std::filesystem::path& path) {
+  return std::make_unique<McapFile>(path);
+}
+
+}  // namespace saccade

@@ -1,0 +1,182 @@
+#include "sources/ply.hpp"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "core/image_size.hpp"
+
+namespace saccade {
+namespace {
+
+using Bytes = std::span<const std::uint8_t>;
+using std::string_view;
+
+std::runtime_error broken(const std::string& why) { return std::runtime_error("not a sound PLY: " + why); }
+
+struct Coordinate {
+  std::size_t offset = 0, size = 0;  // bytes; size 0 = absent
+};
+
+struct Header {
+  cv::Size size;
+  std::optional<Intrinsics> camera;
+  std::size_t vertices = 0, vertex_bytes = 0, data_begin = 0;
+  std::array<Coordinate, 3> xyz;
+  bool binary = false, in_vertex = false, has_vertex = false;
+};
+
+std::vector<string_view> words_of(string_view line) {
+  std::vector<string_view> words;
+  constexpr string_view kBlank = " \t\r";
+  for (std::size_t begin = 0; (begin = line.find_first_not_of(kBlank, begin)) != string_view::npos;) {
+    const std::size_t end = std::min(line.find_first_of(kBlank, begin), line.size());
+    words.push_back(line.substr(begin, end - begin));
+    begin = end;
+  }
+  return words;
+}
+
+template <typename Number>
+Number parse(string_view word) {
+  Number value{};
+  const auto [end, code] = std::from_chars(word.data(), word.data() + word.size(), value);
+  if (code != std::errc{} || end != word.data() + word.size())
+    throw broken(fmt::format("'{}' is no number", word.substr(0, 20)));
+  return value;
+}
+
+std::size_t bytes_of_type(string_view type) {
+  constexpr std::array<std::pair<string_view, std::size_t>, 16> kTypes = {{{"char", 1},
+                                                                           {"uchar", 1},
+                                                                           {"int8", 1},
+                                                                           {"uint8", 1},
+                                                                           {"short", 2},
+                                                                           {"ushort", 2},
+                                                                           {"int16", 2},
+                                                                           {"uint16", 2},
+                                                                           {"int", 4},
+                                                                           {"uint", 4},
+                                                                           {"int32", 4},
+                                                                           {"uint32", 4},
+                                                                           {"float", 4},
+                                                                           {"float32", 4},
+                                                                           {"double", 8},
+                                                                           {"float64", 8}}};
+  for (const auto& [name, bytes] : kTypes)
+    if (name == type) return bytes;
+  throw broken("a property of an unknown type");
+}
+
+void read_property(Header& header, const std::vector<string_view>& words) {
+  constexpr std::size_t kLargestVertex = 4096;
+  if (!header.in_vertex) return;  // of an element after the vertices, which is not read
+  if (words.size() != 3) throw broken("a vertex has a list");
+  const std::size_t bytes = bytes_of_type(words[1]);
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    if (words[2] == string_view(&"xyz"[axis], 1)) {
+      if (!words[1].starts_with("float") && !words[1].starts_with("double"))
+        throw broken("x, y and z must be floats");
+      header.xyz[axis] = {header.vertex_bytes, bytes};
+    }
+  header.vertex_bytes += bytes;
+  if (header.vertex_bytes > kLargestVertex) throw broken("a vertex is too large");
+}
+
+void read_line(Header& header, const std::vector<string_view>& words) {
+  if (words[0] == "format" && words.size() > 1) header.binary = words[1] == "binary_little_endian";
+  if (words[0] == "property") read_property(header, words);
+  if (words[0] == "element") {
+    if (words.size() != 3) throw broken("an element without its number");
+    header.in_vertex = words[1] == "vertex";
+    if (!header.in_vertex && !header.has_vertex) throw broken("vertices are not its first element");
+    if (header.in_vertex) header.vertices = parse<std::size_t>(words[2]);
+    header.has_vertex = true;
+  }
+  if (words[0] != "obj_info" || words.size() < 3) return;
+  if (words[1] == "num_cols") header.size.width = parse<int>(words[2]);
+  if (words[1] == "num_rows") header.size.height = parse<int>(words[2]);
+  if (words[1] == "camera" && words.size() == 6) {
+    header.camera = Intrinsics{parse<double>(words[2]), parse<double>(words[3]), parse<double>(words[4]),
+                               parse<double>(words[5]), IntrinsicsOrigin::file};
+  }
+}
+
+void check(const Header& header) {
+  const auto [width, height] = header.size;
+  if (width <= 0 || height <= 0 || !header.camera || !header.camera->valid())
+    throw std::runtime_error("the PLY names neither image nor camera (obj_info num_cols, num_rows, camera)");
+  check_image_size(width, height);
+  if (!header.binary) throw std::runtime_error("the PLY is not binary_little_endian");
+  for (const Coordinate& coordinate : header.xyz)
+    if (coordinate.size == 0) throw broken("a vertex has no x, y and z");
+  if (header.vertices > static_cast<std::size_t>(header.size.area()))
+    throw broken("it has more points than the image has pixels");
+}
+
+Header read_header(Bytes ply) {
+  constexpr std::size_t kLongestHeader = 1 << 16;
+  const string_view text(reinterpret_cast<const char*>(ply.data()), std::min(ply.size(), kLongestHeader));
+  if (!text.starts_with("ply")) throw broken("it does not begin with ply");
+  Header header;
+  for (std::size_t begin = 0; header.data_begin == 0;) {
+    const std::size_t end = text.find('\n', begin);
+    if (end == string_view::npos) throw broken("its header has no end");
+    const auto words = words_of(text.substr(begin, end - begin));
+    begin = end + 1;
+    if (words.empty()) continue;
+    if (words[0] == "end_header")
+      header.data_begin = begin;
+    else
+      read_line(header, words);
+  }
+  check(header);
+  return header;
+}
+
+double number_at(const std::uint8_t* vertex, const Coordinate& coordinate) {
+  if (coordinate.size == 8) {
+    double value = 0;
+    std::memcpy(&value, vertex + coordinate.offset, 8);
+    return value;
+  }
+  float value = 0;
+  std::memcpy(&value, vertex + coordinate.offset, 4);
+  return static_cast<double>(value);
+}
+
+}  // namespace
+
+cv::Size read_ply_size(Bytes ply) { return read_header(ply).size; }
+
+OrganisedCloud read_ply(Bytes ply) {
+  const Header header = read_header(ply);
+  const Bytes data = ply.subspan(header.data_begin);
+  if (data.size() / std::max<std::size_t>(header.vertex_bytes, 1) < header.vertices)
+    throw broken("the file is cut");
+  const Intrinsics& camera = header.camera.value();
+  OrganisedCloud cloud{cv::Mat1f(header.size, 0.0F), camera};
+  for (std::size_t i = 0; i < header.vertices; ++i) {
+    const std::uint8_t* vertex = data.data() + i * header.vertex_bytes;
+    const double x = number_at(vertex, header.xyz[0]), y = number_at(vertex, header.xyz[1]),
+                 z = number_at(vertex, header.xyz[2]);
+    if (!(z > 0) || !std::isfinite(z)) continue;
+    const double col = std::round(x / z * camera.fx + camera.cx);
+    const double row = std::round(y / z * camera.fy + camera.cy);
+    if (!(col >= 0 && col < header.size.width && row >= 0 && row < header.size.height))
+      throw broken("a point is outside of its image");
+    cloud.depth_mm(static_cast<int>(row), static_cast<int>(col)) = static_cast<float>(z);
+  }
+  return cloud;
+}
+
+}  // namespace saccade

@@ -1,0 +1,223 @@
+// The .bag of ROS 1, version 2.0: records of u32 length, header, u32 length, data; a header is fields of u32
+// length and "name=value". Messages are in chunks, or at the top in files of old recorders.
+#include <algorithm>
+#include <array>
+#include <map>
+#include <stdexcept>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+#include "oni/bytes.hpp"
+#include "oni/input_file.hpp"
+#include "sources/bag_file.hpp"
+#include "sources/chunk_cache.hpp"
+#include "sources/decompress.hpp"
+
+namespace saccade {
+namespace {
+
+using Bytes = BagFile::Bytes;
+
+constexpr std::string_view kMagic = "#ROSBAG V2.0\n";
+constexpr std::uint8_t kMessage = 2, kChunk = 5, kConnection = 7;
+constexpr std::uint32_t kLargestHeader = 1u << 20;
+constexpr std::uint32_t kLargestData = 512u << 20;
+constexpr std::uint32_t kBeginning = 256;  // bytes of a message outside of a chunk
+
+// The fields of a header, without copies.
+class Fields {
+ public:
+  explicit Fields(Bytes header) : cursor_(header) {}
+
+  Bytes find(std::string_view name) const {
+    ByteCursor cursor = cursor_;
+    while (!cursor.rest().empty()) {
+      const auto size = cursor.take<std::uint32_t>();
+      const auto field = size ? cursor.take_bytes(*size) : std::nullopt;
+      if (!field) throw std::runtime_error("a header is too short");
+      const std::string_view text(reinterpret_cast<const char*>(field->data()), field->size());
+      if (text.size() > name.size() && text.starts_with(name) && text[name.size()] == '=')
+        return field->subspan(name.size() + 1);
+    }
+    return {};
+  }
+
+  template <typename T>
+  T number(std::string_view name) const {
+    const Bytes value = find(name);
+    if (value.size() != sizeof(T)) throw std::runtime_error(fmt::format("a header has no {}", name));
+    return load_le<T>(value.data());
+  }
+
+  std::string text(std::string_view name) const {
+    const Bytes value = find(name);
+    return {value.begin(), value.end()};
+  }
+
+ private:
+  ByteCursor cursor_;
+};
+
+class Ros1BagFile final : public BagFile {
+ public:
+  explicit Ros1BagFile(const std::filesystem::path& path) : file_(path) {
+    std::array<std::uint8_t, kMagic.size()> magic{};
+    if (file_.read(0, magic) != magic.size() || !std::ranges::equal(magic, kMagic))
+      throw unreadable("not a ROS bag of version 2.0", file_.name(), "is it the right file?");
+  }
+
+  void scan(const Visit& visit) override {
+    std::uint64_t position = kMagic.size();
+    try {
+      while (position < file_.size()) scan_record(position, visit);
+    } catch (const std::runtime_error& error) {
+      problems_.push_back(fmt::format("at byte {}: {}", position, error.what()));
+    }
+  }
+
+  const std::vector<BagTopic>& topics() const override { return topics_; }
+  const std::vector<std::string>& problems() const override { return problems_; }
+
+  Bytes read(const BagPlace& place) override {
+    if (place.part == 0) {
+      message_.resize(place.size);
+      if (file_.read(place.offset, message_) != place.size) throw std::runtime_error("the file is cut");
+      return message_;
+    }
+    const Bytes chunk = chunk_at(place.part);
+    if (place.offset + place.size > chunk.size()) throw std::runtime_error("the chunk is too short");
+    return chunk.subspan(place.offset, place.size);
+  }
+
+ private:
+  struct Record {
+    std::vector<std::uint8_t> header;
+    std::uint64_t data = 0;  // position
+    std::uint32_t size = 0;  // bytes of data
+  };
+
+  std::uint32_t length_at(std::uint64_t position) const {
+    std::array<std::uint8_t, 4> bytes{};
+    if (file_.read(position, bytes) != bytes.size()) throw std::runtime_error("the file is truncated");
+    return load_le<std::uint32_t>(bytes.data());
+  }
+
+  Record record_at(std::uint64_t position) const {
+    Record record;
+    const std::uint32_t header = length_at(position);
+    if (header > kLargestHeader) throw std::runtime_error("a header is too long");
+    record.header.resize(header);
+    if (file_.read(position + 4, record.header) != header) throw std::runtime_error("the file is truncated");
+    record.size = length_at(position + 4 + header);
+    record.data = position + 8 + header;
+    if (record.size > file_.size() - record.data) throw std::runtime_error("the file is truncated");
+    return record;
+  }
+
+  void scan_record(std::uint64_t& position, const Visit& visit) {
+    const Record record = record_at(position);
+    const Fields fields(record.header);
+    switch (fields.number<std::uint8_t>("op")) {
+      case kChunk:
+        scan_chunk(position, visit);
+        break;
+      case kConnection:
+        message_.resize(std::min(record.size, kLargestHeader));
+        if (file_.read(record.data, message_) != message_.size())
+          throw std::runtime_error("the file cannot be read");
+        take_connection(fields, message_);
+        break;
+      case kMessage:
+        message_.resize(std::min(record.size, kBeginning));
+        if (file_.read(record.data, message_) != message_.size())
+          throw std::runtime_error("the file cannot be read");
+        give(fields, message_, {0, record.data, record.size}, visit);
+        break;
+      default:
+        break;  // the file's header and its indices
+    }
+    position = record.data + record.size;
+  }
+
+  // A damaged chunk costs its messages only.
+  void scan_chunk(std::uint64_t position, const Visit& visit) {
+    try {
+      scan_records(position, chunk_at(position), visit);
+    } catch (const std::runtime_error& error) {
+      problems_.push_back(
+          fmt::format("messages of the chunk at byte {} are lost: {}", position, error.what()));
+    }
+  }
+
+  void scan_records(std::uint64_t position, Bytes chunk, const Visit& visit) {
+    ByteCursor cursor(chunk);
+    const auto take = [&] {
+      const auto size = cursor.take<std::uint32_t>();
+      const auto bytes = size ? cursor.take_bytes(*size) : std::nullopt;
+      if (!bytes) throw std::runtime_error("a record is longer than its chunk");
+      return *bytes;
+    };
+    while (!cursor.rest().empty()) {
+      const Bytes header = take(), data = take();
+      const Fields fields(header);
+      const auto op = fields.number<std::uint8_t>("op");
+      if (op == kConnection) take_connection(fields, data);
+      const auto offset = static_cast<std::uint64_t>(data.data() - chunk.data());
+      const auto size = static_cast<std::uint32_t>(data.size());
+      if (op == kMessage) give(fields, data, {position, offset, size}, visit);
+    }
+  }
+
+  Bytes chunk_at(std::uint64_t position) {
+    return chunks_.get(position, [this](std::uint64_t at, auto& bytes) { load_chunk(at, bytes); });
+  }
+
+  void load_chunk(std::uint64_t position, std::vector<std::uint8_t>& bytes) {
+    const Record record = record_at(position);
+    const Fields fields(record.header);
+    if (record.size > kLargestData) throw std::runtime_error("it is too large");
+    compressed_.resize(record.size);
+    if (file_.read(record.data, compressed_) != record.size)
+      throw std::runtime_error("the file cannot be read");
+    decompress(fields.text("compression"), compressed_, fields.number<std::uint32_t>("size"), bytes);
+  }
+
+  void take_connection(const Fields& fields, Bytes data) {
+    const auto id = fields.number<std::uint32_t>("conn");
+    if (connections_.contains(id)) return;
+    BagTopic topic;
+    topic.name = fields.text("topic");
+    topic.type = Fields(data).text("type");
+    // A topic has a connection for each of its publishers.
+    const auto same = std::ranges::find_if(
+        topics_, [&](const BagTopic& t) { return t.name == topic.name && t.type == topic.type; });
+    connections_[id] = static_cast<std::size_t>(same - topics_.begin());
+    if (same == topics_.end()) topics_.push_back(std::move(topic));
+  }
+
+  void give(const Fields& fields, Bytes data, const BagPlace& place, const Visit& visit) {
+    const auto connection = connections_.find(fields.number<std::uint32_t>("conn"));
+    if (connection == connections_.end() || place.size > kLargestMessage) return;
+    if (!topics_[connection->second].type.starts_with("sensor_msgs/")) return;
+    const auto time = fields.number<std::uint64_t>("time");  // seconds, and ns above them
+    const auto time_ns = static_cast<std::int64_t>((time & 0xFFFFFFFFu) * 1'000'000'000u + (time >> 32));
+    visit(connection->second, time_ns, data, place);
+  }
+
+  InputFile file_;
+  std::map<std::uint32_t, std::size_t> connections_;  // number in topics_
+  std::vector<BagTopic> topics_;
+  std::vector<std::string> problems_;
+  ChunkCache chunks_;
+  std::vector<std::uint8_t> compressed_, message_;
+};
+
+}  // namespace
+
+std::unique_ptr<BagFile> open_ros1_bag(const std::filesystem::path& path) {
+  return std::make_unique<Ros1BagFile>(path);
+}
+
+}  // namespace saccade

@@ -1,0 +1,209 @@
+// Recordings of ROS, by writers of our own.
+#include <filesystem>
+#include <random>
+
+#include <gmock/gmock.h>
+#include <opencv2/core.hpp>
+#include <opencv2/imgcodecs.hpp>
+
+#include "bag_writer.hpp"
+#include "core/error.hpp"
+#include "core/file.hpp"
+#include "core/png.hpp"
+#include "sources/open_source.hpp"
+#include "tests/support/folder_test.hpp"
+#include "tests/support/no_wait.hpp"
+
+namespace saccade {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::Contains;
+using ::testing::HasSubstr;
+
+constexpr std::int64_t kBegin_ns = 1'700'000'000'000'000'000;
+const Intrinsics kCamera{500.5, 501.5, 8.25, 5.75, IntrinsicsOrigin::file};
+const std::string kDepth = "/camera/depth/image_raw", kColour = "/camera/color/image_raw";
+
+cv::Mat1w depth_image(int k) {
+  cv::Mat1w image(12, 16);
+  for (int i = 0; i < 192; ++i) image(i / 16, i % 16) = static_cast<std::uint16_t>(1000 + 10 * k + i);
+  image(0, 0) = 0;
+  image(0, 1) = 65535;
+  return image;
+}
+
+cv::Mat3b colour_image(int k) { return cv::Mat3b(12, 16, cv::Vec3b(10, 20, static_cast<std::uint8_t>(k))); }
+
+std::int64_t stamp(int k) { return kBegin_ns + k * std::int64_t{33'333'000}; }
+
+// Four frames; colour is 5 ms later, and missing at frame 2.
+std::vector<TestMessage> recording(bool cdr) {
+  const MessageWriter writer(cdr);
+  std::vector<TestMessage> messages = {
+      writer.camera("/camera/depth/camera_info", stamp(0), {16, 12}, kCamera),
+      writer.camera("/camera/color/camera_info", stamp(0), {16, 12}, {1, 1, 1, 1, IntrinsicsOrigin::file})};
+  for (int k = 0; k < 4; ++k) {
+    messages.push_back(writer.image(kDepth, stamp(k), depth_image(k), "16UC1"));
+    if (k != 2) messages.push_back(writer.image(kColour, stamp(k) + 5'000'000, colour_image(k), "bgr8"));
+  }
+  return messages;
+}
+
+class BagSourceTest : public FolderTest {
+ protected:
+  std::string in(const std::string& name) const { return (folder_ / name).string(); }
+
+  void expect_recording(const std::string& file) const {
+    SCOPED_TRACE(file);
+    const auto source = open_source(file);
+    EXPECT_EQ(source->info().frame_count, 4);
+    EXPECT_EQ(source->info().intrinsics.fx, kCamera.fx);
+    EXPECT_EQ(source->info().intrinsics.cy, kCamera.cy);
+    EXPECT_NEAR(source->info().rate_hz, 30, 0.01);
+    for (const int k : {0, 1, 2, 3, 0}) {
+      source->seek(k);
+      Frame frame;
+      const ReadResult result = source->read(frame, kNoWait);
+      ASSERT_EQ(result.status, ReadStatus::frame) << result.reason;
+      EXPECT_EQ(frame.timestamp_us, stamp(k) / 1000);
+      cv::Mat1f expected;
+      depth_image(k).convertTo(expected, CV_32F);
+      expected(0, 1) = 0;
+      EXPECT_EQ(cv::norm(frame.depth_mm, expected, cv::NORM_INF), 0);
+      ASSERT_EQ(frame.colour.empty(), k == 2);
+      if (k != 2) {
+        EXPECT_EQ(cv::norm(frame.colour, colour_image(k), cv::NORM_INF), 0);
+      }
+    }
+  }
+
+  std::string complaint(const std::string& file, ExitStatus status,
+                        const InputSettings& settings = {}) const {
+    try {
+      open_source(file, {{}, settings});
+    } catch (const Error& error) {
+      EXPECT_EQ(error.status(), status) << error.what();
+      return error.what();
+    }
+    ADD_FAILURE() << "no error came";
+    return "";
+  }
+};
+
+TEST_F(BagSourceTest, EveryContainerAndCompressionGivesTheSameFrames) {
+  for (const std::string compression : {"none", "bz2", "lz4"}) {
+    write_ros1_bag(folder_ / (compression + ".bag"), recording(false), compression);
+    expect_recording(in(compression + ".bag"));
+  }
+  for (const std::string compression : {"", "lz4", "zstd"}) {
+    write_mcap(folder_ / ("a" + compression + ".mcap"), recording(true), compression);
+    expect_recording(in("a" + compression + ".mcap"));
+  }
+  write_plain_mcap(folder_ / "plain.mcap", recording(true));
+  expect_recording(in("plain.mcap"));
+  write_db3(folder_ / "a.db3", recording(true));
+  expect_recording(in("a.db3"));
+  fs::create_directory(folder_ / "ros2");
+  fs::copy(folder_ / "a.db3", folder_ / "ros2/a_0.db3");
+  write_file(folder_ / "ros2/metadata.yaml", std::string_view("rosbag2_bagfile_information:\n"));
+  expect_recording(in("ros2"));
+}
+
+TEST_F(BagSourceTest, OtherEncodingsAreRead) {
+  const MessageWriter writer(true);
+  cv::Mat1f metres(12, 16, 1.25F);
+  metres(0, 0) = std::numeric_limits<float>::quiet_NaN();
+  metres(0, 1) = -1;
+  std::vector<std::uint8_t> jpeg, packed(12, 0);
+  cv::imencode(".jpg", colour_image(7), jpeg);
+  const auto png = encode_png(depth_image(0));
+  packed.insert(packed.end(), png.begin(), png.end());
+  write_mcap(
+      folder_ / "float.mcap",
+      {writer.image("/depth", 5, metres, "32FC1"), writer.compressed("/rgb/compressed", 5, "jpeg", jpeg)},
+      "zstd");
+  write_mcap(folder_ / "packed.mcap",
+             {writer.compressed("/depth/compressedDepth", 5, "16UC1; compressedDepth", packed)}, "");
+  Frame frame;
+  const auto source = open_source(in("float.mcap"));
+  ASSERT_EQ(source->read(frame, kNoWait).status, ReadStatus::frame);
+  EXPECT_EQ(frame.depth_mm(0, 0), 0);
+  EXPECT_EQ(frame.depth_mm(0, 1), 0);
+  EXPECT_EQ(frame.depth_mm(5, 5), 1250);
+  EXPECT_NEAR(frame.colour(5, 5)[1], 20, 3);
+  EXPECT_EQ(source->info().intrinsics.origin, IntrinsicsOrigin::guess);
+  ASSERT_EQ(open_source(in("packed.mcap"))->read(frame, kNoWait).status, ReadStatus::frame);
+  EXPECT_EQ(frame.depth_mm(5, 5), static_cast<float>(depth_image(0)(5, 5)));
+}
+
+TEST_F(BagSourceTest, TopicsAreChosenByNameOrByTheUser) {
+  const MessageWriter writer(false);
+  std::vector<TestMessage> messages = {writer.image("/a/depth/image", 5, depth_image(0), "16UC1"),
+                                       writer.image("/b/depth/image", 5, depth_image(3), "16UC1")};
+  write_ros1_bag(folder_ / "two.bag", messages, "none");
+  EXPECT_THAT(complaint(in("two.bag"), ExitStatus::usage),
+              HasSubstr("choose with --topics depth=TOPIC: /a/depth/image, /b/depth/image"));
+  Frame frame;
+  const auto chosen = open_source(in("two.bag"), {{}, {.depth_topic = "/b/depth/image"}});
+  ASSERT_EQ(chosen->read(frame, kNoWait).status, ReadStatus::frame);
+  EXPECT_EQ(frame.depth_mm(5, 5), static_cast<float>(depth_image(3)(5, 5)));
+  EXPECT_THAT(complaint(in("two.bag"), ExitStatus::usage, {.depth_topic = "/c"}),
+              HasSubstr("no topic of this name has depth: --topics depth=/c"));
+  messages.push_back(writer.image("/camera/aligned_depth_to_color/image_raw", 5, depth_image(7), "16UC1"));
+  write_ros1_bag(folder_ / "three.bag", messages, "lz4");
+  EXPECT_THAT(open_source(in("three.bag"))->info().notes, Contains(HasSubstr("depth from /camera/aligned")));
+}
+
+TEST_F(BagSourceTest, WithoutDepthTheErrorListsWhatThereIs) {
+  write_db3(folder_ / "a.db3", {MessageWriter(true).image("/rgb", 5, colour_image(1), "rgb8")});
+  EXPECT_THAT(complaint(in("a.db3"), ExitStatus::unreadable), HasSubstr("it holds /rgb (rgb8)"));
+  for (const char* name : {"a.bag", "a.mcap", "b.db3"}) {
+    write_file(folder_ / name, std::string_view("something else"));
+    complaint(in(name), ExitStatus::unreadable);
+    write_file(folder_ / name, std::string_view(""));
+    complaint(in(name), ExitStatus::unreadable);
+  }
+}
+
+TEST_F(BagSourceTest, ATruncatedFileGivesWhatItHolds) {
+  write_plain_mcap(folder_ / "a.mcap", recording(true));
+  const auto bytes = read_file(folder_ / "a.mcap");
+  write_file(folder_ / "cut.mcap", std::span(bytes).first(bytes.size() * 2 / 3));
+  const auto source = open_source(in("cut.mcap"));
+  EXPECT_GT(*source->info().frame_count, 1);
+  EXPECT_THAT(source->info().notes, Contains(HasSubstr("truncated")));
+  Frame frame;
+  EXPECT_EQ(source->read(frame, kNoWait).status, ReadStatus::frame);
+}
+
+// Every byte that lies, and every length cut: an error or frames, and no access outside of the memory.
+TEST_F(BagSourceTest, DamagedFilesNeverCrash) {
+  write_ros1_bag(folder_ / "a.bag", recording(false), "none");
+  write_mcap(folder_ / "a.mcap", recording(true), "lz4");
+  write_plain_mcap(folder_ / "b.mcap", recording(true));
+  write_db3(folder_ / "a.db3", recording(true));
+  std::mt19937 random(7);
+  for (const std::string name : {"a.bag", "a.mcap", "b.mcap", "a.db3"}) {
+    const auto sound = read_file(folder_ / name);
+    for (int round = 0; round < 150; ++round) {
+      auto bytes = sound;
+      for (int k = 0; k < 1 + round % 4; ++k)
+        bytes[random() % (round % 2 == 0 ? bytes.size() : std::min<std::size_t>(bytes.size(), 600))] =
+            static_cast<std::uint8_t>(round % 3 == 0 ? 0xff : random());
+      if (round % 5 == 0) bytes.resize(random() % bytes.size());
+      write_file(folder_ / ("x_" + name), bytes);
+      try {
+        const auto source = open_source(in("x_" + name));
+        Frame frame;
+        for (int k = 0; k < 8; ++k)
+          if (source->read(frame, kNoWait).status == ReadStatus::end) break;
+      } catch (const Error& error) {
+        EXPECT_NE(error.status(), ExitStatus::failed) << error.what();
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace saccade
