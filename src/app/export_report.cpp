@@ -4,9 +4,9 @@
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
+#include <nlohmann/json.hpp>
 
 #include "core/text.hpp"
-#include <nlohmann/json.hpp>
 
 namespace saccade {
 
