@@ -24,16 +24,17 @@ using ::testing::AnyOf;
 
 class SignalTest : public ProgramTest {
  protected:
-  // Runs the program and sends it a signal at a random moment of its first second. It must end soon: with
-  // this status, with 0 if it was done before, or by the signal itself, as long as there is nothing to close.
-  // Returns the status.
-  int interrupt(int status, const std::vector<std::string>& arguments) {
+  // Runs the program and sends it a signal at a random moment of its first second, or of the first second
+  // after `file` is there. It must end soon: with this status, with 0 if it was done before, or by the signal
+  // itself, as long as there is nothing to close. Returns the status.
+  int interrupt(int status, const std::string& file, const std::vector<std::string>& arguments) {
     constexpr std::array kSignals = {SIGINT, SIGTERM, SIGHUP};
     const int signal = kSignals[random_() % kSignals.size()], after_ms = static_cast<int>(random_() % 1000);
+    const fs::path wait_for = random_() % 3 == 0 ? folder_ : folder_ / file;
     SCOPED_TRACE(arguments[0] + ", signal " + std::to_string(signal) + " after " + std::to_string(after_ms) +
                  " ms");
     const auto begin = std::chrono::steady_clock::now();
-    const ProgramResult outcome = run_saccade(arguments, after_ms, folder_, signal);
+    const ProgramResult outcome = run_saccade(arguments, after_ms, wait_for, signal);
     // Two seconds where nothing else runs.
     EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(20));
     EXPECT_THAT(outcome.status, AnyOf(status, 0, -signal)) << outcome.err;
@@ -54,8 +55,9 @@ constexpr int kMoments = 6;
 TEST_F(SignalTest, RunLeavesWholeFilesAtAnyMoment) {
   for (int k = 0; k < kMoments; ++k) {
     fs::remove_all(folder_ / "o");
-    const int status = interrupt(0, {"run", "synthetic:table?frames=100000&size=160x120", "--levels", "0..2",
-                                     "--out", in("o"), "--dump", "maps", "--quiet"});
+    const int status = interrupt(0, "o/fixations.jsonl",
+                                 {"run", "synthetic:table?frames=100000&size=160x120", "--levels", "0..2",
+                                  "--out", in("o"), "--dump", "maps", "--quiet"});
     expect_whole_lines("o/fixations.jsonl");
     if (status != 0) continue;
     const json manifest = json::parse(text("o/manifest.json"));
@@ -75,8 +77,8 @@ TEST_F(SignalTest, RunLeavesWholeFilesAtAnyMoment) {
 TEST_F(SignalTest, RecordLeavesASoundFileOrNoneAtAnyMoment) {
   for (int k = 0; k < kMoments; ++k) {
     fs::remove(folder_ / "a.oni");
-    const int status =
-        interrupt(0, {"record", "synthetic:sphere?frames=100000&size=160x120", in("a.oni"), "--quiet"});
+    const int status = interrupt(
+        0, "a.oni", {"record", "synthetic:sphere?frames=100000&size=160x120", in("a.oni"), "--quiet"});
     if (status != 0) continue;
     Recording recording(folder_ / "a.oni");
     EXPECT_TRUE(is_sound(check_recording(recording)));
@@ -91,7 +93,8 @@ TEST_F(SignalTest, EvalCanBeContinuedAfterAnyMoment) {
                                             "--quiet"};
   constexpr int kInterrupted = 1;
   for (int k = 0; k < kMoments; ++k) {
-    if (interrupt(kInterrupted, command) == 0) fs::remove_all(folder_ / "o");  // begin again
+    if (interrupt(kInterrupted, "o/results.jsonl", command) == 0)
+      fs::remove_all(folder_ / "o");  // begin again
     expect_whole_lines("o/results.jsonl");
   }
   EXPECT_EQ(run_saccade(command).status, 0);

@@ -1,5 +1,8 @@
-// Hundreds of damaged inputs for every parser, the same in every run.
+// A thousand damaged inputs of every seed for every parser, the same in every run. SACCADE_MUTANTS=10000 sets
+// another number.
+#include <cstdlib>
 #include <random>
+#include <string>
 
 #include <gtest/gtest.h>
 
@@ -8,7 +11,11 @@
 namespace saccade {
 namespace {
 
-constexpr unsigned kMutantsPerSeed = 1000;
+unsigned mutants_per_seed() {
+  constexpr unsigned kUsual = 1000;
+  const char* wanted = std::getenv("SACCADE_MUTANTS");
+  return wanted == nullptr ? kUsual : static_cast<unsigned>(std::stoul(wanted));
+}
 
 // Flips, cuts, repeats, removes and inserts bytes, and puts numbers and words where parsers stumble.
 class Mutator {
@@ -82,11 +89,12 @@ class Mutants : public ::testing::TestWithParam<FuzzedParser> {};
 TEST_P(Mutants, AreReadOrRefused) {
   const std::vector<Bytes> seeds = GetParam().seeds();
   ASSERT_FALSE(seeds.empty());
+  const unsigned mutants = mutants_per_seed();
   for (std::size_t s = 0; s < seeds.size(); ++s) {
     EXPECT_TRUE(GetParam().read(seeds[s])) << "seed " << s;
     unsigned refused = 0;
-    for (unsigned k = 0; k < kMutantsPerSeed; ++k) {
-      const unsigned number = kMutantsPerSeed * static_cast<unsigned>(s) + k;
+    for (unsigned k = 0; k < mutants; ++k) {
+      const unsigned number = mutants * static_cast<unsigned>(s) + k;
       const Bytes mutant = Mutator(number).mutate(seeds[s]);
       try {
         refused += GetParam().read(mutant) ? 0 : 1;
