@@ -123,7 +123,7 @@ void explain_bar_under_pointer(const Plot& plot, const std::vector<StageHistory:
   if (back >= stacks.size()) return;
   const StageHistory::Stack& stack = stacks[stacks.size() - 1 - back];
   ImGui::BeginTooltip();
-  ImGui::TextUnformatted(back == 0 ? "the last frame" : counted(back, "frame") + " ago".c_str());
+  ImGui::TextUnformatted(back == 0 ? "the last frame" : (counted(back, "frame") + " ago").c_str());
   for (std::size_t i = stack.size(); i-- > 0;) {
     const float below = i == 0 ? 0 : stack[i - 1];
     swatch(series_colour(static_cast<int>(i)));
