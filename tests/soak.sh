@@ -30,7 +30,9 @@ trap 'stop || true' EXIT
 
 # start KIND: on a terminal of its own, where the program shows its progress.
 start() {
-  local faults="loss=$1&loss_after=400&back_after_ms=700&late_ms=500&stall_ms=400&stall_after=150"
+  local back_ms=700
+  [[ $1 != silent ]] || back_ms=2600  # a silence counts as a loss after two seconds
+  local faults="loss=$1&loss_after=400&back_after_ms=$back_ms&late_ms=500&stall_ms=400&stall_after=150"
   faults+='&short_frame=50&ignores_settings=1&rate=30'
   export SACCADE_VIRTUAL_DEVICE="synthetic:table?size=160x120&noise=kinect&frames=60&$faults"
   local command="echo \$\$ >$work/$1.pid; exec '$program' run openni2 --mode 160x120 --levels 0..2 --dump none --out $work/$1"
@@ -74,6 +76,9 @@ report() {
   done
 }
 
+# count_of KEY FILE: the first number of that name.
+count_of() { sed -nE "s/.*\"$1\": *([0-9]+).*/\1/p" "$2" | sed -n 1p; }
+
 # finish KIND: the ledger of its manifest.
 finish() {
   local begin end manifest=$work/$1/manifest.json pid
@@ -82,12 +87,13 @@ finish() {
   kill -INT "$pid" 2>/dev/null || return 0  # reported already
   while kill -0 "$pid" 2>/dev/null; do sleep 0.02; done
   end=$((($(date +%s%N) - begin) / 1000000))
-  local number='[0-9]+' ledger
-  ledger=$(tr -d ' \n' <"$manifest" | grep -oE "\"captured\":$number,\"processed\":$number,\"dropped\":$number,\"rejected\":$number")
-  read -r captured processed dropped rejected < <(grep -oE "$number" <<<"$ledger" | tr '\n' ' ')
-  local losses
-  losses=$(tr -d ' \n' <"$manifest" | grep -oE '"losses":[0-9]+')
-  echo "$1: ended after $end ms; captured $captured = processed $processed + dropped $dropped + rejected $rejected; $losses"
+  local captured processed dropped rejected
+  captured=$(count_of captured "$manifest")
+  processed=$(count_of processed "$manifest")
+  dropped=$(count_of dropped "$manifest")
+  rejected=$(count_of rejected "$manifest")
+  echo "$1: ended after $end ms; captured $captured = processed $processed + dropped $dropped + rejected $rejected;" \
+    "losses $(count_of losses "$manifest")"
   ((captured == processed + dropped + rejected)) || note "$1: the ledger is not balanced"
   (($(wc -l <"$work/$1/fixations.jsonl") == processed)) || note "$1: fixations.jsonl does not have every frame"
   ((end <= 2000)) || note "$1: it took too long to end"

@@ -71,16 +71,17 @@ void ColourDecoder::decode_packet() {
   if ((packet.flags & AV_PKT_FLAG_KEY) != 0) damaged_.erase(damaged_.begin(), damaged_.lower_bound(group_++));
   const Waiting waiting{position->time_us, group_,
                         intra_only_ || (packet.flags & AV_PKT_FLAG_DISPOSABLE) != 0};
-  if ((packet.flags & AV_PKT_FLAG_DISCARD) == 0) waiting_[number] = waiting;  // else it is not to be shown
+  if (!position->problem.empty())
+    lose(waiting, number, position->problem);
+  else if ((packet.flags & AV_PKT_FLAG_DISCARD) == 0)  // else it is not to be shown
+    waiting_[number] = waiting;
   VideoMessages messages;
   context_->reordered_opaque = number;
   int code = avcodec_send_packet(context_.get(), &packet);
   const int received = receive_pictures();
   if (code >= 0) code = received;
   if (code == AVERROR(ENOMEM)) throw std::bad_alloc();
-  if (!position->problem.empty())
-    lose(waiting, number, position->problem);
-  else if (code < 0 && code != AVERROR(EAGAIN) && code != AVERROR_EOF)
+  if (code < 0 && code != AVERROR(EAGAIN) && code != AVERROR_EOF && waiting_.contains(number))
     lose(waiting, number, "damaged: " + messages.take_error().value_or("it cannot be decoded"));
 }
 

@@ -32,6 +32,7 @@ struct Disk {
   std::vector<Operation> log;
   bool held = false;  // syncs wait
   int waiting = 0;    // syncs that do
+  int folder_syncs = 0;
   void add(Operation operation) {
     const std::lock_guard lock(mutex);
     log.push_back(std::move(operation));
@@ -68,6 +69,14 @@ extern "C" int fdatasync(int file) {
     disk().log.push_back({Operation::Kind::sync, 0, {}});
   }
   return static_cast<int>(::syscall(SYS_fdatasync, file));
+}
+
+extern "C" int fsync(int file) {
+  {
+    const std::lock_guard lock(disk().mutex);
+    ++disk().folder_syncs;
+  }
+  return static_cast<int>(::syscall(SYS_fsync, file));
 }
 
 namespace saccade {
@@ -200,6 +209,16 @@ TEST_F(WriteOrder, CountsAndTablePositionsAreWrittenOnlyWhenTheTablesAreOnTheDis
     end = std::max(end, operation.position + operation.bytes.size());
   }
   EXPECT_EQ(overwrites, 3) << "two nodes and the header";
+}
+
+TEST_F(WriteOrder, TheNameOfTheFileIsOnTheDiskWithItsFirstFrame) {
+  for (const bool replaces : {false, true}) {
+    disk().folder_syncs = 0;
+    OniWriter writer(path("name.oni"), {.overwrite = true});
+    writer.write(test_frame(0, kSize, false));
+    EXPECT_EQ(disk().folder_syncs, replaces ? 2 : 1) << "the name, and the new name of a file that replaces";
+    writer.close();
+  }
 }
 
 TEST_F(WriteOrder, ASlowDiskSyncsWaitingFramesTogetherAndNoneIsDropped) {

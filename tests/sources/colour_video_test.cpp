@@ -1,5 +1,7 @@
 // Videos of colour without depth.
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -58,7 +60,8 @@ std::vector<ReadStatus> read_shades(FrameSource& source) {
 TEST_F(ColourVideoTest, ColourIsReadFromEveryContainerAndInTheOrderOfTime) {
   for (const char* name : {"v.mkv", "v.avi", "v.mp4", "v.nut"})
     for (const int b_frames : {0, 2}) {
-      if (b_frames > 0 && std::string_view(name) == "v.avi") continue;  // which has no times for them
+      const std::string_view ending = std::string_view(name).substr(2);
+      if (b_frames > 0 && (ending == "avi" || ending == "nut")) continue;  // their times are of the decoding
       SCOPED_TRACE(fmt::format("{}, {}", name, b_frames));
       write_shades(name, {.key_every = kFrames, .b_frames = b_frames});
       const auto source = open_source(path(name).string());
@@ -69,18 +72,16 @@ TEST_F(ColourVideoTest, ColourIsReadFromEveryContainerAndInTheOrderOfTime) {
 }
 
 TEST_F(ColourVideoTest, ImagesThatATruncatedColourVideoHasLostAreRejected) {
-  for (const char* name : {"v.mkv", "v.avi", "v.nut"})
-    for (const double share : {0.5, 0.8}) {
-      SCOPED_TRACE(fmt::format("{} at {}", name, share));
-      write_shades(name);
-      cut(name, share);
-      const auto all = read_shades(*open_source(path(name).string()));
-      EXPECT_GE(rejected_of(all), 1);
-      EXPECT_LT(rejected_of(all), kFrames);
-      if (std::string_view(name) != "v.nut") {  // without its end it does not know how long it was
-        EXPECT_EQ(all.size(), kFrames);
-      }
-    }
+  for (const auto& [name, share] :
+       {std::pair("v.mkv", 0.5), std::pair("v.mkv", 0.8), std::pair("v.avi", 0.8)}) {
+    SCOPED_TRACE(fmt::format("{} at {}", name, share));
+    write_shades(name);
+    cut(name, share);
+    const auto all = read_shades(*open_source(path(name).string()));
+    EXPECT_EQ(all.size(), kFrames);
+    EXPECT_GE(rejected_of(all), 1);
+    EXPECT_LT(rejected_of(all), kFrames);
+  }
 }
 
 TEST_F(ColourVideoTest, DamageOfAColourVideoIsRejectedWithAllThatDependsOnIt) {
@@ -103,7 +104,7 @@ TEST_F(ColourVideoTest, AVideoOfATurnedCameraIsShownUpright) {
   Frame frame;
   ASSERT_EQ(source->read(frame, kNoWait).status, ReadStatus::frame);
   cv::Mat1b upright;
-  cv::rotate(shaded_image(0), upright, cv::ROTATE_90_COUNTERCLOCKWISE);
+  cv::rotate(shaded_image(0), upright, cv::ROTATE_90_CLOCKWISE);
   cv::Mat1b grey;
   cv::extractChannel(frame.colour, grey, 0);
   cv::Mat1f read, expected;

@@ -23,7 +23,7 @@ void write_ffv1(const std::filesystem::path& path, const std::vector<cv::Mat1w>&
 struct Mpeg4Options {
   int key_every = 1, b_frames = 0;
   bool container_crc = true;
-  int turned_degrees = 0;  ///< as a phone notes how it was held; counterclockwise
+  int turned_degrees = 0;  ///< as a phone notes how it was held; clockwise
 };
 
 /// Writes images of grey (16 = black, 235 = white) as MPEG-4 at 30 Hz.

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <ctime>
 #include <filesystem>
 #include <span>
 #include <string_view>
@@ -27,6 +28,9 @@ using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+
+// Of this process: what bounds work, and other programs on the machine do not change.
+double processor_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 class FolderSourceTest : public FolderTest {
  protected:
@@ -341,9 +345,9 @@ TEST_F(FolderSourceTest, AFolderOfManyFilesIsListedInALittleTime) {
   put_depth("0_depth.png", 1000);
   for (int k = 1; k < kMany; ++k)
     fs::create_symlink(folder_ / "0_depth.png", folder_ / fmt::format("{}_depth.png", k));
-  const auto begin = std::chrono::steady_clock::now();
+  const double begin = processor_seconds();
   EXPECT_EQ(open_source(folder_.string())->info().frame_count, kMany);
-  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(20)) << "usually half a second";
+  EXPECT_LT(processor_seconds() - begin, 20) << "usually half a second";
 }
 
 TEST_F(FolderSourceTest, AHugeMetaFileIsRefusedBeforeItIsRead) {
@@ -416,10 +420,9 @@ TEST_F(FolderSourceTest, LongTumListsArePairedInALittleTime) {
   put_text("depth.txt", depth);
   put_text("rgb.txt", colour);
   put_depth("0.png", 5000);
-  const auto begin = std::chrono::steady_clock::now();
+  const double begin = processor_seconds();
   const auto source = open_source(folder_.string());
-  // Comparing each with each took 10 s at half of this size.
-  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(20));
+  EXPECT_LT(processor_seconds() - begin, 20) << "comparing each with each takes 40";
   EXPECT_THAT(source->info().notes, IsEmpty());
 }
 
