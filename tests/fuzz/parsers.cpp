@@ -181,7 +181,7 @@ bool read_any_meta(std::span<const std::uint8_t> bytes) {
   static const Folder folder("meta");
   write_file(folder / "meta.json", bytes);
   return proper_error_at_worst(ExitStatus::unreadable, [&] {
-    const auto camera = read_meta(folder.path());
+    const auto camera = read_meta(folder.path()).camera;
     if (camera && !(camera->fx > 0 && camera->fy > 0))
       throw std::logic_error("a camera without focal length");
   });

@@ -50,7 +50,7 @@ TEST_F(OsdSourceTest, FilesBelongTogetherByTheirStems) {
   EXPECT_EQ(source->info().kind, "osd");
   EXPECT_EQ(source->info().frame_count, 3);
   EXPECT_EQ(source->info().intrinsics.origin, IntrinsicsOrigin::guess);
-  EXPECT_THAT(source->info().notes, ElementsAre(HasSubstr("1 of 3 frames have no file")));
+  EXPECT_THAT(source->info().notes, ElementsAre(HasSubstr("1 of 3 frames without a file")));
   Frame frame;
   ASSERT_EQ(source->read(frame, kNoWait).status, ReadStatus::frame);
   EXPECT_EQ(frame.name, "learn2");
