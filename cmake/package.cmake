@@ -20,10 +20,10 @@ install(FILES ${PROJECT_BINARY_DIR}/package/SaccadeConfig.cmake ${PROJECT_BINARY
 # folder core/ is never in the way.
 set(public_headers
   core/background_job.hpp core/error.hpp core/frame.hpp core/frame_source.hpp core/intrinsics.hpp core/sensor_controls.hpp
-  core/sensor_settings.hpp core/setting.hpp core/stage_times.hpp core/version.hpp core/worker_pool.hpp
+  core/input_settings.hpp core/sensor_settings.hpp core/setting.hpp core/stage_times.hpp core/version.hpp core/worker_pool.hpp
   saliency/params.hpp saliency/probe.hpp saliency/reference.hpp saliency/symmetry3d.hpp
   models/model.hpp models/model_settings.hpp
-  sources/open_source.hpp)
+  sources/open_source.hpp sources/source_options.hpp)
 # AttentionTracker holds most of these rooms' objects.
 file(GLOB tracker_headers RELATIVE ${PROJECT_SOURCE_DIR}/src CONFIGURE_DEPENDS
   ${PROJECT_SOURCE_DIR}/src/attention/*.hpp ${PROJECT_SOURCE_DIR}/src/tracking/*.hpp)

@@ -28,7 +28,8 @@ struct Intrinsics {
     return {(col - cx) / fx * depth_mm, (row - cy) / fy * depth_mm, depth_mm};
   }
 
-  /// The usual 525, 525, 319.5, 239.5 of a PrimeSense camera, scaled by width / 640. Origin: guess.
+  /// The usual focal length of a PrimeSense camera, 525 at a width of 640, and the middle of the image.
+  /// Origin: guess.
   static Intrinsics guess_for(cv::Size size);
 
   /// From the fields of view in radians: fx = (W/2)/tan(h/2), principal point in the middle.

@@ -74,8 +74,8 @@ std::size_t choose_depth(const std::vector<BagStream>& streams, const std::strin
                      held.empty() ? "it holds no images" : "it holds " + held);
   }
   if (tie)
-    throw usage_error("several topics could be the depth", file,
-                      "choose with --topics depth=TOPIC: " + names_of(streams, &BagStream::is_depth));
+    throw unreadable("several topics could be the depth", file,
+                     "choose with --topics depth=TOPIC: " + names_of(streams, &BagStream::is_depth));
   return *best;
 }
 

@@ -35,8 +35,8 @@ struct ChosenStreams {
 
 /// Chooses by the topics that the user names, else by type and name: depth that is registered to colour
 /// before other depth, raw images before compressed ones, and colour and camera with the most of the depth's
-/// name in theirs. Throws Error: (unreadable) there is no depth; (usage) a topic is not there or of another
-/// type, or several could be the depth; it names them.
+/// name in theirs. Throws Error: (unreadable) there is no depth, or several topics could
+/// be it, which it names; (usage) a topic that the user names is not there or of another type.
 ChosenStreams choose_streams(const std::vector<BagStream>& streams, const InputSettings& settings,
                              const std::string& file);
 

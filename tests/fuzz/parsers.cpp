@@ -15,12 +15,15 @@
 #include "core/png.hpp"
 #include "drivers/modules/virtual_spec.hpp"
 #include "eval/result_file.hpp"
+#include "output/cloud_files.hpp"
 #include "settings/settings.hpp"
 #include "sources/meta_json.hpp"
 #include "sources/open_source.hpp"
 #include "sources/pcd.hpp"
+#include "sources/ply.hpp"
 #include "sources/poses_file.hpp"
 #include "tests/eval/samples.hpp"
+#include "tests/sources/bag_writer.hpp"
 #include "tests/sources/ffv1_writer.hpp"
 #include "tests/sources/matroska_writer.hpp"
 #include "tests/sources/nyu_writer.hpp"
@@ -174,6 +177,8 @@ bool read_any_tum_list(std::span<const std::uint8_t> bytes) {
 
 std::vector<Bytes> meta_seeds() {
   return {bytes_of(R"({"fx": 525.0, "fy": 525.0, "cx": 319.5, "cy": 239.5})"),
+          bytes_of(R"({"depth_unit_mm": 0.1, "rate_hz": 30, "sequence": true})"),
+          bytes_of(R"({"depth_scale": 1000})"),
           bytes_of(R"({"note": "a\u00e9", "list": [1, {"a": []}, true]})")};
 }
 
@@ -181,9 +186,10 @@ bool read_any_meta(std::span<const std::uint8_t> bytes) {
   static const Folder folder("meta");
   write_file(folder / "meta.json", bytes);
   return proper_error_at_worst(ExitStatus::unreadable, [&] {
-    const auto camera = read_meta(folder.path()).camera;
-    if (camera && !(camera->fx > 0 && camera->fy > 0))
+    const FolderMeta meta = read_meta(folder.path());
+    if (meta.camera && !(meta.camera->fx > 0 && meta.camera->fy > 0))
       throw std::logic_error("a camera without focal length");
+    if (meta.depth_unit_mm && !(*meta.depth_unit_mm > 0)) throw std::logic_error("a unit of no size");
   });
 }
 
@@ -271,11 +277,70 @@ bool read_any_mkv(std::span<const std::uint8_t> bytes) {
   return play((folder / "seed.mkv").string());
 }
 
+// Depth of two frames, the colour of one, and the camera.
+std::vector<TestMessage> bag_messages(bool cdr) {
+  const MessageWriter writer(cdr);
+  return {writer.camera("/depth/camera_info", 1, {16, 12}, {20, 20, 7.5, 5.5}),
+          writer.image("/depth/image", 1'000, small_depth(), "16UC1"),
+          writer.image("/rgb/image", 2'000, cv::Mat3b(12, 16, cv::Vec3b(1, 2, 3)), "rgb8"),
+          writer.image("/depth/image", 33'000'000, small_depth(3), "16UC1")};
+}
+
+bool read_any_of(const char* name, std::span<const std::uint8_t> bytes) {
+  static const Folder folder("bag");
+  write_file(folder / name, bytes);
+  return play((folder / name).string());
+}
+
+std::vector<Bytes> bag_seeds() {
+  std::vector<Bytes> seeds;
+  for (const char* compression : {"none", "bz2", "lz4"})
+    seeds.push_back(written(
+        "seed.bag", [&](const fs::path& path) { write_ros1_bag(path, bag_messages(false), compression); }));
+  return seeds;
+}
+
+std::vector<Bytes> mcap_seeds() {
+  std::vector<Bytes> seeds = {
+      written("seed.mcap", [](const fs::path& path) { write_plain_mcap(path, bag_messages(true)); })};
+  for (const char* compression : {"", "lz4", "zstd"})
+    seeds.push_back(written(
+        "seed.mcap", [&](const fs::path& path) { write_mcap(path, bag_messages(true), compression); }));
+  return seeds;
+}
+
+std::vector<Bytes> db3_seeds() {
+  return {written("seed.db3", [](const fs::path& path) { write_db3(path, bag_messages(true)); })};
+}
+
+std::vector<Bytes> ply_seeds() {
+  Frame frame;
+  small_depth().convertTo(frame.depth_mm, CV_32F);
+  frame.intrinsics = {20, 20, 7.5, 5.5};
+  return {encode_ply(frame), encode_ply(frame, cv::Mat3f(12, 16, cv::Vec3f(0, 0, -1)))};
+}
+
+bool read_any_ply(std::span<const std::uint8_t> bytes) {
+  try {
+    if (read_ply(bytes).depth_mm.empty()) throw std::logic_error("an empty cloud");
+    return true;
+  } catch (const std::runtime_error&) {  // the reason, as its header says
+    return false;
+  }
+}
+
 constexpr std::array kParsers = {
+    FuzzedParser{"bag", bag_seeds,
+                 [](std::span<const std::uint8_t> b) { return read_any_of("seed.bag", b); }},
+    FuzzedParser{"db3", db3_seeds,
+                 [](std::span<const std::uint8_t> b) { return read_any_of("seed.db3", b); }},
     FuzzedParser{"mat", mat_seeds, read_any_mat},
+    FuzzedParser{"mcap", mcap_seeds,
+                 [](std::span<const std::uint8_t> b) { return read_any_of("seed.mcap", b); }},
     FuzzedParser{"meta", meta_seeds, read_any_meta},
     FuzzedParser{"mkv", mkv_seeds, read_any_mkv},
     FuzzedParser{"pcd", pcd_seeds, read_any_pcd},
+    FuzzedParser{"ply", ply_seeds, read_any_ply},
     FuzzedParser{"png", png_seeds, read_any_png},
     FuzzedParser{"poses", poses_seeds, read_any_poses},
     FuzzedParser{"results", results_seeds, read_any_results},

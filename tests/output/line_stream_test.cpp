@@ -113,7 +113,7 @@ TEST(LineStream, AReaderThatLeavesIsNoticed) {
 
 TEST(LineStream, AnInterruptionEndsTheWaitForASlowReader) {
   PipeAsOutput pipe;
-  const auto stream = open_line_stream("-", SlowReader::wait);
+  auto stream = open_line_stream("-", SlowReader::wait);
   std::jthread later([&] {
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
     stream->interrupt();
@@ -122,6 +122,8 @@ TEST(LineStream, AnInterruptionEndsTheWaitForASlowReader) {
   for (int i = 0; i < 2000; ++i) stream->send(line);
   stream->finish();
   EXPECT_GT(stream->counts().dropped, 0);
+  later.join();
+  stream.reset();  // its thread must not write to the restored output
   pipe.restore();
 }
 

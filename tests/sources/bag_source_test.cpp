@@ -142,7 +142,7 @@ TEST_F(BagSourceTest, TopicsAreChosenByNameOrByTheUser) {
   std::vector<TestMessage> messages = {writer.image("/a/depth/image", 5, depth_image(0), "16UC1"),
                                        writer.image("/b/depth/image", 5, depth_image(3), "16UC1")};
   write_ros1_bag(folder_ / "two.bag", messages, "none");
-  EXPECT_THAT(complaint(in("two.bag"), ExitStatus::usage),
+  EXPECT_THAT(complaint(in("two.bag"), ExitStatus::unreadable),
               HasSubstr("choose with --topics depth=TOPIC: /a/depth/image, /b/depth/image"));
   Frame frame;
   const auto chosen = open_source(in("two.bag"), {{}, {.depth_topic = "/b/depth/image"}});

@@ -133,7 +133,7 @@ TEST_F(FolderLayouts, BopHasCamerasUnitsAndMasks) {
   EXPECT_EQ(frames[1].intrinsics.fx, 700) << "each frame has its own";
   EXPECT_EQ(frames[0].truth.labels(0, 0), 1);
   EXPECT_EQ(frames[0].truth.labels(4, 4), 2);
-  EXPECT_EQ(cv::norm(frames[0].truth.camera_to_world->translation() - cv::Vec3d(0, 0, -500)), 0);
+  EXPECT_NEAR(cv::norm(frames[0].truth.camera_to_world->translation() - cv::Vec3d(0, 0, -500)), 0, 1e-9);
   for (const char* broken : {"[]", "{}", R"({"3": {"cam_K": [1, 2]}})", R"({"3": {}})"}) {
     put_text("scene_camera.json", broken);
     EXPECT_THROW(open_source(folder_.string()), Error) << broken;

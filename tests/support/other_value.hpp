@@ -12,7 +12,7 @@ namespace saccade {
 inline std::string other_value(const SettingSpec& spec) {
   std::vector<std::string> candidates = spec.words;
   for (const char* text : {"true", "false", "3", "7", "0.7", "1..3", "400,401,300,200", "320x240@60", "fixed",
-                           "depth=/d", "none"})
+                           "none", "-", "depth=/a"})
     candidates.emplace_back(text);
   for (const std::string& text : candidates) try {
       Settings settings;
