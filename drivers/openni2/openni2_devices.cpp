@@ -4,6 +4,7 @@
 
 #include <OpenNI.h>
 
+#include "drivers/openni2/module_file.hpp"
 #include "drivers/openni2/openni2_modes.hpp"
 #include "drivers/openni2/openni2_thread.hpp"
 
@@ -19,16 +20,22 @@ std::string driver_of(const DeviceIdentity& device) {
   return device.usb_product == 0x0600 || device.usb_product == 0x0601 ? "PS1080" : "PSLink";
 }
 
+// Empty if the device does not have it.
+std::string text_property(const openni::Device& device, int id) {
+  std::array<char, 4096> text{};
+  int size = static_cast<int>(text.size()) - 1;
+  return device.getProperty(id, text.data(), &size) == openni::STATUS_OK ? text.data() : "";
+}
+
 void open_and_look(DeviceListing& listing) {
   openni::Device device;
   if (device.open(listing.identity.uri.c_str()) != openni::STATUS_OK) {
     listing.problem = "it cannot be opened: " + openni2_complaint();
     return;
   }
-  std::array<char, 256> serial{};
-  int size = static_cast<int>(serial.size()) - 1;
-  if (device.getProperty(openni::DEVICE_PROPERTY_SERIAL_NUMBER, serial.data(), &size) == openni::STATUS_OK)
-    listing.serial = serial.data();
+  listing.serial = text_property(device, openni::DEVICE_PROPERTY_SERIAL_NUMBER);
+  if (device.isPropertySupported(kModuleFileProperty) && listing.driver.empty())
+    listing.driver = text_property(device, kModuleFileProperty);
   listing.depth_modes = names_of(depth_modes(device));
   listing.colour_modes = names_of(colour_modes(device));
   device.close();
@@ -46,6 +53,17 @@ std::vector<DeviceListing> list_devices() {
     list.push_back(std::move(device));
   }
   return list;
+}
+
+std::string serial_of(const DeviceIdentity& identity) {
+  std::string serial;
+  on_openni2_thread([&] {
+    openni::Device device;
+    if (device.open(identity.uri.c_str()) != openni::STATUS_OK) return;
+    serial = text_property(device, openni::DEVICE_PROPERTY_SERIAL_NUMBER);
+    device.close();
+  });
+  return serial;
 }
 
 void look_into(DeviceListing& listing) {

@@ -15,7 +15,8 @@
 
 namespace saccade {
 
-/// A live sensor, through OpenNI2: `openni2` is the first one that is connected, `openni2:URI` names one.
+/// A live sensor, through OpenNI2: `openni2` is the first one that is connected, `openni2:URI` and
+/// `openni2:serial=NUMBER` name one.
 ///
 /// Each depth frame is a frame; one whose memory is too short for its size is `rejected`. Its colour is of
 /// the same moment, to half a period (FramePairing).

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "drivers/openni2/openni2_devices.hpp"
 #include "drivers/openni2/openni2_thread.hpp"
 
 namespace saccade {
@@ -16,6 +17,7 @@ using Connection = SourceState::Connection;
 
 constexpr milliseconds kSilence{2000}, kSilenceAfterOpening{5000};
 constexpr milliseconds kFirstBackOff{100}, kLongestBackOff{2000};
+constexpr std::string_view kSerial = "serial=";  // before a serial number in place of a URI
 constexpr const char* kHint = "plug in a sensor; saccade doctor looks for the reason";
 constexpr const char* kHintOfLoss = "plug it in again; without --no-reconnect Saccade waits for it";
 
@@ -50,13 +52,13 @@ std::chrono::steady_clock::time_point after(double seconds) {
 
 }  // namespace
 
-SensorConnection::SensorConnection(std::string uri, const SensorSettings& settings)
+SensorConnection::SensorConnection(std::string device, const SensorSettings& settings)
     : settings_(settings),
-      wanted_uri_(std::move(uri)),
+      wanted_(std::move(device)),
       runtime_(OpenNi2Runtime::instance()),
       wait_until_(after(settings.wait_s)),
       back_off_(kFirstBackOff),
-      wanted_(values_of(settings)) {
+      wanted_values_(values_of(settings)) {
   set_state(Connection::waiting, "waiting for a device", Clock::now());
   try_to_connect();
 }
@@ -81,14 +83,14 @@ void SensorConnection::open_found() {
   next_try_ = Clock::now() + back_off_;
   back_off_ = std::min(2 * back_off_, kLongestBackOff);
   const auto devices = runtime_.devices();
-  const int index = choose_device(devices, wanted_uri_, last_device_);
+  const int index = choose(devices);
   if (index < 0) return;
   const DeviceIdentity& found = devices[static_cast<std::size_t>(index)];
   trouble_ = runtime_.trouble(found.uri).count;
   SensorValues wanted;
   {
     const std::lock_guard lock(mutex_);
-    wanted = wanted_;
+    wanted = wanted_values_;
     requested_ = {};
   }
   try {
@@ -99,6 +101,15 @@ void SensorConnection::open_found() {
     return;
   }
   took_device();
+}
+
+// The position of the device to open; -1 = it is not there.
+int SensorConnection::choose(const std::vector<DeviceIdentity>& devices) const {
+  if (!wanted_.starts_with(kSerial)) return choose_device(devices, wanted_, last_device_);
+  const std::string serial = wanted_.substr(kSerial.size());
+  for (std::size_t i = 0; i < devices.size(); ++i)
+    if (serial_of(devices[i]) == serial) return static_cast<int>(i);
+  return -1;
 }
 
 void SensorConnection::took_device() {
@@ -121,8 +132,9 @@ void SensorConnection::took_device() {
 void SensorConnection::give_up() const {
   if (last_device_ || Clock::now() < wait_until_) return;
   if (last_failure_) throw unreadable(*last_failure_, "", "");
-  throw wanted_uri_.empty() ? unreadable("no sensor is connected", "openni2", kHint)
-                            : unreadable("this sensor is not connected", "openni2:" + wanted_uri_, kHint);
+  throw wanted_.empty() ? unreadable("no sensor is connected", "openni2", kHint)
+                        : unreadable("this sensor is not connected", "openni2:" + wanted_,
+                                     "saccade devices lists the sensors with their serial numbers");
 }
 
 std::optional<std::string> SensorConnection::reason_of_loss() const {
@@ -204,7 +216,7 @@ std::vector<SensorMode> SensorConnection::modes() const {
 
 void SensorConnection::request(const SensorValues& wanted) {
   const std::lock_guard lock(mutex_);
-  overwrite(wanted_, wanted);
+  overwrite(wanted_values_, wanted);
   overwrite(requested_, wanted);
 }
 

@@ -24,9 +24,10 @@ class SensorConnection final : public SensorControls {
  public:
   using Clock = std::chrono::steady_clock;
 
-  /// Opens the device if it is there. `uri` is OpenNI2's; empty = any device. Throws Error: (failed) OpenNI2
+  /// Opens the device if it is there. `device` is OpenNI2's URI of it, or serial=NUMBER; empty = any device.
+  /// Throws Error: (failed) OpenNI2
   /// does not start, (usage) the device lacks the mode in `settings`, (unreadable) as give_up().
-  SensorConnection(std::string uri, const SensorSettings& settings);
+  SensorConnection(std::string device, const SensorSettings& settings);
   ~SensorConnection() override;
 
   /// nullptr while no device is open.
@@ -62,13 +63,14 @@ class SensorConnection final : public SensorControls {
 
  private:
   void open_found();
+  int choose(const std::vector<DeviceIdentity>& devices) const;
   void took_device();
   void give_up() const;
   Clock::time_point last_heard() const { return heard_since_opening_ ? last_depth_at_ : opened_at_; }
   void set_state(SourceState::Connection connection, const std::string& text, Clock::time_point since);
 
   const SensorSettings settings_;
-  const std::string wanted_uri_;
+  const std::string wanted_;
   OpenNi2Runtime& runtime_;
   const Clock::time_point wait_until_;
   std::unique_ptr<OpenNi2Device> device_;
@@ -82,7 +84,7 @@ class SensorConnection final : public SensorControls {
   mutable std::mutex mutex_;  // guards all below
   SourceState state_;
   std::optional<Clock::time_point> away_since_;
-  SensorValues values_, wanted_, requested_;
+  SensorValues values_, wanted_values_, requested_;
   std::vector<SensorMode> modes_;
 };
 

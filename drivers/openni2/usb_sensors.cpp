@@ -15,6 +15,25 @@ namespace {
 
 using Part = UsbSensorKind::Part;
 
+constexpr const char* kMaker = "name its maker's OpenNI2 module in SACCADE_OPENNI2_DRIVERS";
+constexpr const char* kKinect2 =
+    "build libfreenect2 with its OpenNI2 driver and name that module in SACCADE_OPENNI2_DRIVERS";
+constexpr const char* kAzure =
+    "there is no OpenNI2 module for it: record with Microsoft's k4arecorder and export depth images (16-bit "
+    "PNG, "
+    "mm) into a folder, which Saccade reads";
+constexpr const char* kOrbbecOpenNi =
+    "name liborbbec.so of Orbbec's OpenNI2 SDK in SACCADE_OPENNI2_DRIVERS, and install its udev rules";
+constexpr const char* kOrbbec =
+    "Astra, Dabai and the first Gemini speak OpenNI: name liborbbec.so of Orbbec's OpenNI2 SDK in "
+    "SACCADE_OPENNI2_DRIVERS; newer ones (Astra 2, Gemini 2, Femto) need Orbbec's own SDK, whose recordings "
+    "can be "
+    "exported as depth images";
+constexpr const char* kRealSense =
+    "build the OpenNI2 driver of librealsense (wrappers/openni2) and name it in SACCADE_OPENNI2_DRIVERS, or "
+    "record "
+    "with realsense-viewer and export depth images";
+
 constexpr UsbSensorKind kKinds[] = {
     {0x1d27, 0x0600, "Asus Xtion Pro or PrimeSense sensor", Part::camera, "PS1080"},
     {0x1d27, 0x0601, "Asus Xtion Pro Live or PrimeSense sensor", Part::camera, "PS1080"},
@@ -31,13 +50,29 @@ constexpr UsbSensorKind kKinds[] = {
     {0x045e, 0x02ad, "Kinect for Xbox 360, audio", Part::companion, ""},
     {0x045e, 0x02be, "Kinect for Windows, audio", Part::companion, ""},
     {0x045e, 0x02c2, "Kinect for Windows, hub", Part::companion, ""},
-    {0x045e, 0x02c4, "Kinect v2", Part::unsupported, ""},
-    {0x045e, 0x02d8, "Kinect v2", Part::unsupported, ""},
-    {0x045e, 0x097c, "Azure Kinect", Part::unsupported, ""},
-    {0x0b05, 0x1a26, "Asus Xtion 2", Part::unsupported, ""},
-    {0x2bc5, 0x0000, "Orbbec sensor", Part::unsupported, ""},
-    {0x2959, 0x0000, "Structure sensor of Occipital", Part::unsupported, ""},
-    {0x8086, 0x0aa5, "Intel RealSense", Part::unsupported, ""},
+    {0x045e, 0x02c4, "Kinect v2", Part::unsupported, "", kKinect2},
+    {0x045e, 0x02d8, "Kinect v2", Part::unsupported, "", kKinect2},
+    {0x045e, 0x097c, "Azure Kinect, depth camera", Part::unsupported, "", kAzure},
+    {0x0b05, 0x1a26, "Asus Xtion 2", Part::unsupported, "", kMaker},
+    {0x2bc5, 0x0401, "Orbbec Astra", Part::unsupported, "", kOrbbecOpenNi},
+    {0x2bc5, 0x0402, "Orbbec Astra S", Part::unsupported, "", kOrbbecOpenNi},
+    {0x2bc5, 0x0403, "Orbbec Astra Pro", Part::unsupported, "", kOrbbecOpenNi},
+    {0x2bc5, 0x0404, "Orbbec Astra Mini", Part::unsupported, "", kOrbbecOpenNi},
+    {0x2bc5, 0x0407, "Orbbec Astra Mini S", Part::unsupported, "", kOrbbecOpenNi},
+    {0x2bc5, 0x0000, "Orbbec sensor", Part::unsupported, "", kOrbbec},
+    {0x2959, 0x0000, "Structure sensor of Occipital", Part::unsupported, "", kMaker},
+    {0x8086, 0x0aa5, "Intel RealSense SR300", Part::unsupported, "", kRealSense},
+    {0x8086, 0x0b48, "Intel RealSense SR305", Part::unsupported, "", kRealSense},
+    {0x8086, 0x0ad1, "Intel RealSense D400", Part::unsupported, "", kRealSense},
+    {0x8086, 0x0ad2, "Intel RealSense D410", Part::unsupported, "", kRealSense},
+    {0x8086, 0x0ad3, "Intel RealSense D415", Part::unsupported, "", kRealSense},
+    {0x8086, 0x0ad4, "Intel RealSense D430", Part::unsupported, "", kRealSense},
+    {0x8086, 0x0af6, "Intel RealSense D420", Part::unsupported, "", kRealSense},
+    {0x8086, 0x0b07, "Intel RealSense D435", Part::unsupported, "", kRealSense},
+    {0x8086, 0x0b3a, "Intel RealSense D435i", Part::unsupported, "", kRealSense},
+    {0x8086, 0x0b5b, "Intel RealSense D405", Part::unsupported, "", kRealSense},
+    {0x8086, 0x0b5c, "Intel RealSense D455", Part::unsupported, "", kRealSense},
+    {0x8086, 0x0b64, "Intel RealSense L515", Part::unsupported, "", kRealSense},
 };
 
 std::string first_line(const fs::path& path) {

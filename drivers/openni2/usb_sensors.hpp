@@ -19,6 +19,7 @@ struct UsbSensorKind {
   const char* name = "";
   Part part = Part::camera;
   const char* module = "";  ///< the driver module that serves it, "PS1080"; empty = none here
+  const char* advice = "";  ///< of an unsupported one: how to use it all the same
 };
 
 /// One that is plugged in, as the kernel shows it.

@@ -9,7 +9,7 @@ std::vector<DeviceListing> list_devices() { throw not_in_this_build("OpenNI2", "
 
 void look_into(DeviceListing&) { throw not_in_this_build("OpenNI2", "SACCADE_OPENNI2"); }
 
-OpenNi2Installation find_openni2() {
+OpenNi2Installation find_openni2(const std::filesystem::path&) {
   OpenNi2Installation none;
   none.in_this_build = false;
   none.left_out = {kOwnModules.begin(), kOwnModules.end()};

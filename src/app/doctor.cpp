@@ -1,6 +1,7 @@
 #include "app/doctor.hpp"
 
 #include <algorithm>
+#include <filesystem>
 
 #include <fmt/format.h>
 
@@ -36,28 +37,50 @@ bool left_out(const Examination& found, std::string_view module) {
   return std::ranges::count(found.openni2.left_out, module) > 0;
 }
 
+bool has_named_module(const Examination& found) {
+  return std::ranges::any_of(found.openni2.modules,
+                             [](const auto& module) { return module.named && module.problem.empty(); });
+}
+
+// Whether the modules of Saccade and of OpenNI2 are in the driver folder.
+void check_folder(const Examination& found, const std::string& reinstall, std::vector<Problem>& problems) {
+  const std::string folder = found.openni2.driver_folder.string();
+  for (const std::string_view name : kOwnModules)
+    if (!left_out(found, name) && found.openni2.module(name) == nullptr)
+      problems.push_back({fmt::format("our driver module {} is not in {}", name, folder),
+                          "install saccade again, or build it again with all of its targets"});
+  for (const char* name : {"PS1080", "PSLink"})
+    if (found.openni2.module(name) == nullptr)
+      problems.push_back(
+          {fmt::format("the driver module {} of OpenNI2 is not in {}", name, folder), reinstall});
+}
+
 void check_openni2(const Examination& found, std::vector<Problem>& problems) {
   if (!found.openni2.in_this_build) {
     problems.push_back({found.openni2_error, "configure with -DSACCADE_OPENNI2=ON and build again"});
     return;
   }
   const std::string reinstall = "sudo apt-get install --reinstall libopenni2-0";
-  if (!found.openni2_error.empty()) problems.push_back({found.openni2_error, reinstall});
-  for (const std::string_view name : kOwnModules)
-    if (!left_out(found, name) && found.openni2.module(name) == nullptr)
-      problems.push_back(
-          {fmt::format("our driver module {} is not in {}", name, found.openni2.driver_folder.string()),
-           "install saccade again, or build it again with all of its targets"});
-  for (const char* name : {"PS1080", "PSLink"})
-    if (found.openni2.module(name) == nullptr)
-      problems.push_back({fmt::format("the driver module {} of OpenNI2 is not in {}", name,
-                                      found.openni2.driver_folder.string()),
-                          reinstall});
+  const bool redirected = !found.openni2.redirected_by.empty();
+  if (redirected)
+    problems.push_back(
+        {fmt::format("{} makes OpenNI2 take its driver modules from {}, so those of Saccade are not used",
+                     found.openni2.redirected_by.string(), found.openni2.driver_folder.string()),
+         "put a ; before Repository in that file, and name the folder in SACCADE_OPENNI2_DRIVERS instead"});
+  if (!found.openni2_error.empty())
+    problems.push_back({found.openni2_error, redirected ? "as above" : reinstall});
+  if (!redirected) check_folder(found, reinstall, problems);
   for (const auto& module : found.openni2.modules)
     if (!module.problem.empty())
-      problems.push_back(
-          {fmt::format("the driver module {} cannot be loaded: {}", module.name, module.problem),
-           fmt::format("ldd {}", module.path.string())});
+      problems.push_back({fmt::format("the driver module {} ({}) cannot be loaded: {}", module.name,
+                                      module.path.string(), module.problem),
+                          module.remedy});
+}
+
+bool is_listed(const UsbSensor& sensor, const Examination& found) {
+  return std::ranges::any_of(found.devices, [&](const DeviceListing& device) {
+    return device.identity.usb_vendor == sensor.kind.vendor && device.identity.usb_product == sensor.product;
+  });
 }
 
 void check_sensor(const UsbSensor& sensor, const Examination& found, std::vector<Problem>& problems) {
@@ -69,9 +92,9 @@ void check_sensor(const UsbSensor& sensor, const Examination& found, std::vector
     return;
   }
   if (sensor.kind.part == Part::unsupported) {
-    problems.push_back({name + ": there is no driver module for it",
-                        "copy its maker's OpenNI2 module into the driver folder"});
-    return;
+    if (is_listed(sensor, found)) return;  // by a module of its maker
+    problems.push_back({name + ": no driver module here serves it", sensor.kind.advice});
+    if (!has_named_module(found)) return;
   }
   if (sensor.access == Access::no_node)
     problems.push_back(
@@ -102,7 +125,7 @@ bool has(const std::vector<UsbSensor>& sensors, Part part) {
 
 Examination examine(const std::string& sysfs) {
   Examination found;
-  found.openni2 = find_openni2();
+  found.openni2 = find_openni2((std::filesystem::absolute(sysfs) / "..").lexically_normal());
   found.usb = find_usb_sensors(sysfs);
   try {
     found.devices = list_devices();

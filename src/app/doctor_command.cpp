@@ -46,7 +46,10 @@ Json usb_json(const UsbSensor& sensor) {
 Json to_json(const Examination& found, const std::vector<Problem>& problems) {
   Json modules = Json::array(), usb = Json::array(), devices = Json::array(), list = Json::array();
   for (const auto& module : found.openni2.modules)
-    modules.push_back({{"name", module.name}, {"path", module.path.string()}, {"problem", module.problem}});
+    modules.push_back({{"name", module.name},
+                       {"path", module.path.string()},
+                       {"named", module.named},
+                       {"problem", module.problem}});
   for (const UsbSensor& sensor : found.usb) usb.push_back(usb_json(sensor));
   for (const DeviceListing& device : found.devices)
     devices.push_back({{"name", device.identity.name},
@@ -61,6 +64,7 @@ Json to_json(const Examination& found, const std::vector<Problem>& problems) {
             {"library", found.openni2.library.string()},
             {"version", found.openni2.version},
             {"driver_folder", found.openni2.driver_folder.string()},
+            {"redirected_by", found.openni2.redirected_by.string()},
             {"modules", modules}}},
           {"usb", usb},
           {"devices", devices},
@@ -72,12 +76,15 @@ std::string to_text(const Examination& found, const std::vector<Problem>& proble
   const auto add = std::back_inserter(text);
   if (found.openni2.in_this_build) {
     fmt::format_to(add, "OpenNI2   {} ({})\n", found.openni2.version, found.openni2.library.string());
-    fmt::format_to(add, "drivers   in {}\n", found.openni2.driver_folder.string());
+    fmt::format_to(add, "drivers   in {}{}\n", found.openni2.driver_folder.string(),
+                   found.openni2.redirected_by.empty() ? "" : ", as OpenNI.ini says");
   } else {
     fmt::format_to(add, "OpenNI2   not in this build\n");
   }
   for (const auto& module : found.openni2.modules)
-    fmt::format_to(add, "          {}{}\n", module.name, module.problem.empty() ? "" : ": " + module.problem);
+    fmt::format_to(add, "          {}{}{}\n", module.name,
+                   module.named ? " (" + module.path.string() + ")" : "",
+                   module.problem.empty() ? "" : ": " + module.problem);
   if (found.usb.empty()) fmt::format_to(add, "USB       no sensor\n");
   for (const UsbSensor& sensor : found.usb)
     fmt::format_to(add, "USB       {} {:04x}:{:04x}, port {}, {}, {} {}: {}; udev rule: {}\n",

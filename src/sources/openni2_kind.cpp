@@ -24,7 +24,9 @@ std::unique_ptr<FrameSource> open(const SourceInput&, const SourceOptions&) {
 extern const SourceKind kOpenNi2Kind = {
     .name = "openni2",
     .written = "openni2[:URI]",
-    .help = "a live sensor: Xtion, PrimeSense, Kinect v1 or the virtual device; saccade devices lists them",
+    .help =
+        "a live sensor: Xtion, PrimeSense, Kinect v1, the virtual device, or any with an OpenNI2 module; "
+        "openni2:serial=NUMBER is a particular one; saccade devices lists them",
     .recognised_by = "openni2",
     .recognises =
         [](const SourceInput& input) { return input.uri == "openni2" || input.uri.starts_with("openni2:"); },

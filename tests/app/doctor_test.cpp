@@ -69,7 +69,8 @@ TEST_F(DoctorTest, FindsOpenNi2WithTheStockAndOurModules) {
     names.push_back(module["name"]);
     EXPECT_EQ(module["problem"], "");
   }
-  EXPECT_THAT(names, ::testing::IsSupersetOf({"PS1080", "PSLink", "SaccadeFreenect", "SaccadeVirtual"}));
+  EXPECT_THAT(names, ::testing::IsSupersetOf(
+                         {"PS1080", "PSLink", "SaccadeBridge", "SaccadeFreenect", "SaccadeVirtual"}));
 }
 
 TEST_F(DoctorTest, WithoutUsbDevicesTheRemedyIsToPlugOneIn) {
@@ -142,19 +143,21 @@ TEST_F(DoctorTest, ProblemsOfTheInstallationComeFirst) {
   Examination found;
   found.openni2.driver_folder = "/drivers";
   found.openni2.modules = {{"PS1080", "/drivers/libPS1080.so.0", ""},
-                           {"PSLink", "/drivers/libPSLink.so.0", "undefined symbol: x"},
+                           {"PSLink", "/drivers/libPSLink.so.0", "it needs x", "ldd -r"},
+                           {"SaccadeBridge", "/drivers/libSaccadeBridge.so.0", ""},
                            {"SaccadeVirtual", "/drivers/libSaccadeVirtual.so.0", ""}};
   const auto problems = diagnose(found);
   ASSERT_EQ(problems.size(), 3U);
   EXPECT_THAT(problems[0].what, HasSubstr("SaccadeFreenect is not in /drivers"));
-  EXPECT_THAT(problems[1].what, HasSubstr("PSLink cannot be loaded: undefined symbol: x"));
+  EXPECT_THAT(problems[1].what, HasSubstr("PSLink (/drivers/libPSLink.so.0) cannot be loaded: it needs x"));
   EXPECT_THAT(problems[2].what, HasSubstr("no USB device"));
 }
 
 TEST_F(DoctorTest, PartsThatTheBuildLeavesOutAreNamed) {
   Examination found;
   found.openni2.left_out = {"SaccadeFreenect"};
-  found.openni2.modules = {{"PS1080", "", ""}, {"PSLink", "", ""}, {"SaccadeVirtual", "", ""}};
+  found.openni2.modules = {
+      {"PS1080", "", ""}, {"PSLink", "", ""}, {"SaccadeBridge", "", ""}, {"SaccadeVirtual", "", ""}};
   plug_in("1-1.2", "045e:02ae", "480", 0666);
   found.usb = find_usb_sensors(folder_ / "sys");
   auto problems = diagnose(found);

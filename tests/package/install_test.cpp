@@ -41,7 +41,7 @@ TEST_F(InstallTest, TheInstalledProgramHasItsOwnDriverModules) {
     EXPECT_FALSE(fs::is_symlink(module["path"].get<std::string>())) << "of its own, not of the build tree";
     ++ours;
   }
-  EXPECT_EQ(ours, 2U);
+  EXPECT_EQ(ours, 3U);
 
   EXPECT_THAT(run_program(program, {"devices"}).out, HasSubstr("openni2:saccade-virtual://0"));
   const ProgramResult run =
