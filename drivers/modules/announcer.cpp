@@ -44,6 +44,8 @@ void Announcer::at(Clock::time_point due, std::function<void()> action) {
 
 void Announcer::call(const std::function<void()>& action) {
   int before = 0;
+  // An action that hangs may never come to a point where it could be cancelled.
+  // NOLINTNEXTLINE(concurrency-thread-canceltype-asynchronous)
   ::pthread_setcanceltype(PTHREAD_CANCEL_ASYNCHRONOUS, &before);
   ::pthread_setcancelstate(PTHREAD_CANCEL_ENABLE, &before);
   action();

@@ -41,7 +41,7 @@ std::vector<OniVideoMode> video_modes(OniPixelFormat format, const std::vector<c
   return modes;
 }
 
-ModuleStream::ModuleStream(StreamKind kind, std::function<FieldOfView()> field_of_view,
+ModuleStream::ModuleStream(StreamKind kind, const std::function<FieldOfView()>& field_of_view,
                            std::function<bool(bool)> running)
     : kind_(std::move(kind)), running_(std::move(running)) {
   settings_.mode = kind_.modes.front();

@@ -39,7 +39,7 @@ class ModuleStream : public WithProperties<oni::driver::StreamBase> {
  public:
   /// `running(true)` is called when a client starts the stream, and may refuse by false; `running(false)`
   /// when the client stops it.
-  ModuleStream(StreamKind kind, std::function<FieldOfView()> field_of_view,
+  ModuleStream(StreamKind kind, const std::function<FieldOfView()>& field_of_view,
                std::function<bool(bool)> running);
 
   const StreamKind& kind() const { return kind_; }

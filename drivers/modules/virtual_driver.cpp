@@ -27,7 +27,8 @@ constexpr const char* kUri = "saccade-virtual://0";
 std::filesystem::path folder_of_program() {
   namespace fs = std::filesystem;
   std::error_code code;
-  const fs::path here = fs::current_path(code), main_thread = fs::read_symlink("/proc/self/cwd", code);
+  const fs::path here = fs::current_path(code);
+  fs::path main_thread = fs::read_symlink("/proc/self/cwd", code);
   if (!main_thread.empty() && main_thread != here) return main_thread;
   const char* shell = std::getenv("PWD");
   return shell != nullptr && fs::path(shell).is_absolute() ? fs::path(shell) : here;

@@ -17,6 +17,7 @@ using Json = nlohmann::ordered_json;
 
 std::vector<std::string> texts_of(const std::vector<SensorMode>& modes) {
   std::vector<std::string> texts;
+  texts.reserve(modes.size());
   for (const SensorMode& mode : modes) texts.push_back(to_text(mode));
   return texts;
 }

@@ -111,10 +111,10 @@ void view(const ViewArguments& arguments, const SettingsOptions& options) {
 }  // namespace
 
 fs::path find_bundled_recording(const fs::path& program) {
-  const fs::path installed = (program.parent_path() / SACCADE_DATA_FROM_BIN / "table.oni").lexically_normal();
+  fs::path installed = (program.parent_path() / SACCADE_DATA_FROM_BIN / "table.oni").lexically_normal();
   if (fs::exists(installed)) return installed;
   for (fs::path folder = program.parent_path(); folder.has_relative_path(); folder = folder.parent_path())
-    if (const fs::path file = folder / "recordings/table.oni"; fs::exists(file)) return file;
+    if (fs::path file = folder / "recordings/table.oni"; fs::exists(file)) return file;
   return {};
 }
 

@@ -13,7 +13,10 @@ struct InversePlane {
   double a = 0, b = 0, c = 0;
 
   /// 1/z at cell i of a grid with `cols` columns.
-  double at(int i, int cols) const { return a * (i % cols) + b * (i / cols) + c; }
+  double at(int i, int cols) const {
+    const int row = i / cols, col = i % cols;
+    return a * col + b * row + c;
+  }
 };
 
 /// Finds the plane that holds the most of a set of cells (README.md, section 4). Least squares over all of

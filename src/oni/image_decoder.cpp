@@ -109,7 +109,7 @@ Outcome OniImageDecoder::decode_depth(OniCodec codec, const OniFormat& format,
   if (z16 && format.crop.size() == format.size)
     return decode_full_16z(codec == OniCodec::z16t ? Codec16z::table : Codec16z::plain, format.size, payload,
                            depth);
-  if (const Outcome decoded = decode_pixels(codec, format, payload); !decoded) return decoded;
+  if (Outcome decoded = decode_pixels(codec, format, payload); !decoded) return decoded;
   depth.create(format.size);
   if (place_.size() != format.size) depth.setTo(0);
   packed<std::uint16_t>(pixels_, place_.size()).copyTo(depth(place_));
@@ -123,7 +123,7 @@ Outcome OniImageDecoder::decode_colour_part(OniCodec codec, const OniFormat& for
     place_ = format.crop;
     return jpeg_.decode(payload, place_.size(), part);
   }
-  if (const Outcome decoded = decode_pixels(codec, format, payload); !decoded) return decoded;
+  if (Outcome decoded = decode_pixels(codec, format, payload); !decoded) return decoded;
   to_bgr(format.pixels, pixels_, place_.size(), part);
   return Outcome::success();
 }
@@ -132,7 +132,7 @@ Outcome OniImageDecoder::decode_colour(OniCodec codec, const OniFormat& format,
                                        std::span<const std::uint8_t> payload, cv::Mat3b& image) {
   if (format.unusable) return Outcome::failure(*format.unusable);
   if (format.crop.size() == format.size) return decode_colour_part(codec, format, payload, image);
-  if (const Outcome decoded = decode_colour_part(codec, format, payload, part_); !decoded) return decoded;
+  if (Outcome decoded = decode_colour_part(codec, format, payload, part_); !decoded) return decoded;
   image.create(format.size);
   image.setTo(cv::Scalar::all(0));
   part_.copyTo(image(place_));

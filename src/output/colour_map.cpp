@@ -52,14 +52,14 @@ const PaletteColours& colours_of(Palette palette) {
   return all[static_cast<std::size_t>(palette)];
 }
 
-std::optional<ValueRange> percentile_range(const cv::Mat1f& image, std::size_t one_in) {
+std::optional<ValueRange> percentile_range(const cv::Mat1f& image, double percent) {
   constexpr int kSampleStep = 7;  // enough pixels for two percentiles
   std::vector<float> sample;
   for (int r = 0; r < image.rows; ++r)
     for (int c = r % kSampleStep; c < image.cols; c += kSampleStep)
       if (image(r, c) > 0) sample.push_back(image(r, c));
   if (sample.empty()) return std::nullopt;
-  const auto beyond = static_cast<std::ptrdiff_t>(sample.size() / one_in);
+  const auto beyond = static_cast<std::ptrdiff_t>(static_cast<double>(sample.size()) * percent / 100);
   const auto low = sample.begin() + beyond, high = sample.end() - 1 - beyond;
   std::nth_element(sample.begin(), low, sample.end());
   const float low_value = *low;
@@ -82,9 +82,13 @@ cv::Vec3b depth_colour(Palette palette, double share) {
   return colours_of(palette)[cv::saturate_cast<std::uint8_t>(kFarShade + kShades * (1 - share))];
 }
 
+std::optional<ValueRange> shown_range(const cv::Mat1f& depth_mm, const DepthStyle& style) {
+  return style.range_mm ? style.range_mm : percentile_range(depth_mm, style.percentile);
+}
+
 cv::Mat3b depth_picture(const cv::Mat1f& depth_mm, const DepthStyle& style) {
   cv::Mat3b picture(depth_mm.size(), cv::Vec3b());
-  const std::optional<ValueRange> range = style.range_mm ? style.range_mm : percentile_range(depth_mm, 100);
+  const std::optional<ValueRange> range = shown_range(depth_mm, style);
   if (!range) return picture;
   const float span_mm = std::max(range->high - range->low, 1.0F);
 

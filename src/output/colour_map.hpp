@@ -29,9 +29,9 @@ struct ValueRange {
   bool operator==(const ValueRange&) const = default;
 };
 
-/// The range of the values above 0 without the lowest and the highest 1/one_in of them (one_in >= 3), from a
+/// The range of the values above 0 without the lowest and the highest `percent` (0..49) of them, from a
 /// sample of every 7th pixel; none if no pixel of the sample is above 0.
-std::optional<ValueRange> percentile_range(const cv::Mat1f& image, std::size_t one_in);
+std::optional<ValueRange> percentile_range(const cv::Mat1f& image, double percent);
 
 /// A map as an 8-bit grey picture: 255 * sqrt(value / largest value), since a saliency map has few strong and
 /// many weak pixels; all black if no value is above 0.
@@ -39,9 +39,14 @@ cv::Mat1b to_grey(const cv::Mat1f& map);
 
 struct DepthStyle {
   Palette palette = Palette::grey;
-  std::optional<ValueRange> range_mm{};  ///< fixed; none = percentile_range() of the image, one in 100
+  std::optional<ValueRange> range_mm{};  ///< fixed; none = percentile_range() of the image
+  double percentile = 1;                 ///< for that, 0..25
   bool operator==(const DepthStyle&) const = default;
 };
+
+/// The depths shown with the first and the last colour, mm; none for an image without a reading and a fixed
+/// range.
+std::optional<ValueRange> shown_range(const cv::Mat1f& depth_mm, const DepthStyle& style);
 
 /// A depth image as a BGR picture: near is the high end of the palette, far the low end, no reading black.
 /// The range leaves out the two ends of the palette, which show depths beyond it.

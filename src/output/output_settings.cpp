@@ -60,6 +60,7 @@ std::string print_overlay(const S& s) {
 
 SettingOf<S> palette_setting(std::string_view key, const std::string& help, Palette& (*palette)(S&)) {
   std::vector<std::string> names;
+  names.reserve(std::size(kPalettes));
   for (const Palette p : kPalettes) names.emplace_back(to_string(p));
   return {key,
           "NAME",
@@ -122,6 +123,12 @@ std::vector<SettingOf<S>> overlay_setting_specs() {
                       [](S& s) -> Palette& { return s.overlay.depth.palette; }),
       range_setting("depth-range", "depth in mm of the first and the last of these colours, or auto",
                     [](S& s) -> std::optional<ValueRange>& { return s.overlay.depth.range_mm; }),
+      {"depth-percentile", "PERCENT",
+       "for depth-range auto: percent of the depths, 0..25, beyond each end of the range",
+       [](S& s, const std::string& text) {
+         s.overlay.depth.percentile = parse_number(text, 0.0, 25.0, "0..25");
+       },
+       [](const S& s) { return print_number(s.overlay.depth.percentile); }},
   };
 }
 

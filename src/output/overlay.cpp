@@ -40,6 +40,7 @@ std::vector<cv::Rect> object_boxes(const Attention& attention) {
     }
   }
   std::vector<cv::Rect> boxes;
+  boxes.reserve(extents.size());
   const cv::Rect whole({}, attention.masks.size());
   for (const Extent& e : extents)
     boxes.push_back(e.bottom < 0 ? cv::Rect()
@@ -146,7 +147,7 @@ cv::Mat1b shown_strength(const cv::Mat1f& smooth, const MapStyle& style) {
 
 std::optional<ValueRange> shown_depth_range(const Frame& frame, const OverlayStyle& style) {
   if (!frame.colour.empty() && style.background != Background::depth) return std::nullopt;
-  return style.depth.range_mm ? style.depth.range_mm : percentile_range(frame.depth_mm, 100);
+  return shown_range(frame.depth_mm, style.depth);
 }
 
 cv::Mat3b draw_background(const Frame& frame, const OverlayStyle& style) {

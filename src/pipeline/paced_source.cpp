@@ -35,6 +35,8 @@ PacedSource::PacedSource(std::unique_ptr<FrameSource> source, std::shared_ptr<Pl
   const Lock lock(playback_->mutex_);
   playback_->state_.position = -1;
   playback_->state_.at_end = false;
+  playback_->state_.in.reset();
+  playback_->state_.out.reset();
   playback_->wanted_.reset();
   playback_->going_to_.reset();
   playback_->again_ = false;
@@ -96,8 +98,8 @@ ReadResult PacedSource::read_recorded(Lock& lock, Frame& frame, Time deadline) {
     Time when = deadline;
     if (p.state_.paused && !going_) {
       // Only the controls end this.
-    } else if (!has_ahead_) {
-      const ReadResult result = next_ < end_ ? fetch(lock) : turn_at_end();
+    } else if (!has_ahead_ || leaves_part()) {
+      ReadResult result = next_ < end_ && !leaves_part() ? fetch(lock) : turn_at_end();
       if (result.status == ReadStatus::frame) continue;
       if (result.status == ReadStatus::rejected) frame.index = ahead_.index;
       return result;
@@ -110,14 +112,18 @@ ReadResult PacedSource::read_recorded(Lock& lock, Frame& frame, Time deadline) {
   return {ReadStatus::timeout, ""};
 }
 
+// The index of the range that is nearest to this one, or before it.
+std::int64_t PacedSource::nearest(std::int64_t index) const {
+  const std::int64_t last = range_.start + (end_ - 1 - range_.start) / range_.every * range_.every;
+  return range_.start + (std::clamp(index, range_.start, last) - range_.start) / range_.every * range_.every;
+}
+
 // Makes the requested frame the next one, due at once.
 void PacedSource::go_to_wanted() {
   PlaybackControls& p = *playback_;
-  const std::int64_t last = range_.start + (end_ - 1 - range_.start) / range_.every * range_.every;
   to_end_ = end_ == kUnknown && *p.wanted_ >= kFarthest;
   if (to_end_) return seek_unknown_end();
-  const std::int64_t wanted = std::clamp(*std::exchange(p.wanted_, std::nullopt), range_.start, last);
-  const std::int64_t index = range_.start + (wanted - range_.start) / range_.every * range_.every;
+  const std::int64_t index = nearest(*std::exchange(p.wanted_, std::nullopt));
   going_ = true;
   p.going_to_ = index;
   p.rebase_ = true;
@@ -175,21 +181,30 @@ ReadResult PacedSource::fetch(Lock& lock) {
   return result;
 }
 
-// Past the last frame: begins the next turn of the loop, or pauses. Returns `end` if no frame was usable,
-// else `frame`.
+// Whether the next frame is the first one behind the part that is played.
+bool PacedSource::leaves_part() const {
+  const PlaybackState& state = playback_->state_;
+  return state.out && !going_ && state.position <= *state.out &&
+         (has_ahead_ ? ahead_.index : next_) > *state.out;
+}
+
+// Past the last frame of the part, or of the range: begins the next turn of the loop, or pauses. Returns
+// `end` if no frame of the range was usable, else `frame`.
 ReadResult PacedSource::turn_at_end() {
   PlaybackControls& p = *playback_;
-  if (!any_usable_) return {ReadStatus::end, ""};
-  if (p.state_.loop && !p.state_.paused) {
+  const bool part = p.state_.in || p.state_.out;
+  if (!any_usable_ && !part) return {ReadStatus::end, ""};
+  if (p.state_.loop && !p.state_.paused && any_usable_) {
     any_usable_ = false;
     jumped_ = true;
-    next_ = range_.start;
-    at_next_ = false;
+    next_ = nearest(p.state_.in.value_or(range_.start));
   } else {
     p.state_.paused = p.state_.at_end = true;
     going_ = false;
     p.going_to_.reset();
+    if (has_ahead_) next_ = ahead_.index;
   }
+  has_ahead_ = at_next_ = false;
   return {ReadStatus::frame, ""};
 }
 

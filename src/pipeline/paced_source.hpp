@@ -39,6 +39,8 @@ class PacedSource final : public FrameSource {
   void go_to_wanted();
   void seek_unknown_end();
   ReadResult fetch(Lock& lock);
+  std::int64_t nearest(std::int64_t index) const;
+  bool leaves_part() const;
   ReadResult turn_at_end();
   bool is_due(Time& when);
   ReadResult give(Lock& lock, Frame& frame);

@@ -7,7 +7,7 @@ namespace saccade {
 void PlaybackControls::play() {
   {
     const std::lock_guard lock(mutex_);
-    if (state_.at_end) wanted_ = 0;  // clamped to the range by the source
+    if (state_.at_end) wanted_ = state_.in.value_or(0);  // clamped to the range by the source
     state_.paused = state_.at_end = false;
     rebase_ = true;
     way_ = 1;
@@ -35,6 +35,18 @@ void PlaybackControls::set_speed(double speed) {
     rebase_ = true;
   }
   changed_.notify_all();
+}
+
+void PlaybackControls::set_in(std::optional<std::int64_t> index) {
+  const std::lock_guard lock(mutex_);
+  state_.in = index;
+  if (index && state_.out && *state_.out < *index) state_.out.reset();
+}
+
+void PlaybackControls::set_out(std::optional<std::int64_t> index) {
+  const std::lock_guard lock(mutex_);
+  state_.out = index;
+  if (index && state_.in && *state_.in > *index) state_.in.reset();
 }
 
 void PlaybackControls::step(std::int64_t frames) {

@@ -38,6 +38,7 @@ struct PlaybackState {
   double speed = 1;            ///< relative to the recorded time; 0 = as fast as the frames can be computed
   std::int64_t position = -1;  ///< index of the frame given last; -1 = none yet
   bool at_end = false;         ///< paused because there is no further frame
+  std::optional<std::int64_t> in, out;  ///< first and last index of the part that is played; none = all
 };
 
 /// The last jump of a player: a frame was given that does not follow the one before it, after a seek or at
@@ -53,12 +54,18 @@ class PlaybackControls {
  public:
   static constexpr double kSlowest = 0.1, kFastest = 8;
 
-  void play();  ///< at the end, plays from the start
+  void play();  ///< at the end, plays from the start of the part
   void pause();
   void toggle() { state().paused ? play() : pause(); }
   void set_loop(bool loop);
   /// kSlowest..kFastest, clamped, or 0 for as fast as possible.
   void set_speed(double speed);
+
+  /// Bounds of the part of the recording that is played and looped, both included; none = as far as there are
+  /// frames. A bound on the wrong side of the other one removes that one. Steps and seeks may leave the part;
+  /// from behind it, playing goes on to the end of the recording.
+  void set_in(std::optional<std::int64_t> index);
+  void set_out(std::optional<std::int64_t> index);
 
   /// Pauses and moves by `frames`, forwards (> 0) or backwards (< 0).
   void step(std::int64_t frames);

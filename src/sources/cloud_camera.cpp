@@ -37,7 +37,8 @@ std::optional<Intrinsics> fit_camera(std::span<const cv::Point3d> points, cv::Si
     for (std::size_t i = 0; i < points.size(); ++i)
       if (is_seen(points[i])) {
         const auto width = static_cast<std::size_t>(size.width);
-        use(points[i], static_cast<double>(i / width), static_cast<double>(i % width));
+        const std::size_t row = i / width, col = i % width;
+        use(points[i], static_cast<double>(row), static_cast<double>(col));
       }
   };
   for_each_point([&](const cv::Point3d& p, double row, double col) {

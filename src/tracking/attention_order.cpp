@@ -224,8 +224,8 @@ int AttentionOrder::stand_in(const TrackedObject& object) const {
   double nearest = kStandInCells * kStandInCells;
   int best = -1;
   for (int cell : object.cells) {
-    const double down = cell / view_->grid.cols() - place->row,
-                 right = cell % view_->grid.cols() - place->col;
+    const int row = cell / view_->grid.cols(), col = cell % view_->grid.cols();
+    const double down = row - place->row, right = col - place->col;
     if (down * down + right * right >= nearest) continue;
     nearest = down * down + right * right;
     best = cell;

@@ -11,7 +11,6 @@
 namespace saccade {
 namespace {
 
-using cv::rgbd::Odometry;
 using cv::rgbd::OdometryFrame;
 
 constexpr float kMetre = 1e-3F;

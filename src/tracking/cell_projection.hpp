@@ -47,7 +47,8 @@ inline int cell_of(const SurfaceGrid& grid, const cv::Point3d& point_mm) {
 
 /// The point of a cell with depth, in camera frame.
 inline cv::Point3d cell_point_mm(const SurfaceGrid& grid, int cell) {
-  return grid.camera().point_mm(cell / grid.cols(), cell % grid.cols(),
+  const int row = cell / grid.cols(), col = cell % grid.cols();
+  return grid.camera().point_mm(row, col,
                                 static_cast<double>(grid.depth_mm()[static_cast<std::size_t>(cell)]));
 }
 

@@ -1,37 +1,17 @@
 #pragma once
 
-#include <sys/mman.h>
-#include <unistd.h>
-
 #include <cstdint>
 #include <span>
 #include <stdexcept>
-#include <string>
 
-#include "core/error.hpp"
 #include "oni/check.hpp"
 #include "oni/info.hpp"
 #include "oni/recording.hpp"
 #include "sources/oni_source.hpp"
+#include "tests/support/memory_file.hpp"
+#include "tests/support/proper_error.hpp"
 
 namespace saccade {
-
-/// A file in memory with a path, so that the code under test opens a real file.
-class MemoryFile {
- public:
-  explicit MemoryFile(std::span<const std::uint8_t> bytes) : descriptor_(::memfd_create("oni", MFD_CLOEXEC)) {
-    if (descriptor_ < 0 ||
-        ::write(descriptor_, bytes.data(), bytes.size()) != static_cast<ssize_t>(bytes.size()))
-      throw std::runtime_error("no memory file");
-  }
-  ~MemoryFile() { ::close(descriptor_); }
-  MemoryFile(const MemoryFile&) = delete;
-  MemoryFile& operator=(const MemoryFile&) = delete;
-  std::string path() const { return "/proc/self/fd/" + std::to_string(descriptor_); }
-
- private:
-  int descriptor_;
-};
 
 /// Uses any bytes as a recording, as the program does: opens, describes and checks it, plays some frames and
 /// seeks. Besides success, only an Error (unreadable) of one line is allowed; anything else throws. Returns
@@ -39,21 +19,12 @@ class MemoryFile {
 inline int exercise(std::span<const std::uint8_t> bytes) {
   const MemoryFile file(bytes);
   int played = 0;
-  const auto unreadable_at_worst = [](const auto& action) {
-    try {
-      action();
-    } catch (const Error& error) {
-      if (error.status() != ExitStatus::unreadable ||
-          std::string(error.what()).find('\n') != std::string::npos)
-        throw std::logic_error(std::string("not a proper error: ") + error.what());
-    }
-  };
-  unreadable_at_worst([&] {
+  proper_error_at_worst(ExitStatus::unreadable, [&] {
     Recording recording{std::filesystem::path(file.path())};
     describe(recording);
     check_recording(recording);
   });
-  unreadable_at_worst([&] {
+  proper_error_at_worst(ExitStatus::unreadable, [&] {
     OniSource source(file.path());
     Frame frame;
     const auto read = [&] {

@@ -32,9 +32,10 @@ TEST(PercentileRange, LeavesOutTheEndsAndValuesNotAboveZero) {
   cv::Mat1f image(100, 700, 0.0F);
   for (int r = 0; r < 100; ++r) image.row(r) = static_cast<float>(r);
   image(50, 1) = -5;
-  EXPECT_EQ(percentile_range(image, 100), (ValueRange{1, 99}));
+  EXPECT_EQ(percentile_range(image, 1), (ValueRange{1, 99}));
   EXPECT_EQ(percentile_range(image, 10), (ValueRange{10, 90}));
-  EXPECT_FALSE(percentile_range(cv::Mat1f(8, 8, 0.0F), 100));
+  EXPECT_EQ(percentile_range(image, 0), (ValueRange{1, 99}));
+  EXPECT_FALSE(percentile_range(cv::Mat1f(8, 8, 0.0F), 1));
 }
 
 TEST(ColourMap, GreyIsTheRootOfTheShareOfTheLargestValue) {

@@ -43,6 +43,7 @@ TEST(OutputSettings, TheOverlayIsSetAndPrinted) {
                                   {"map-threshold", "0.1"},
                                   {"depth-colours", "turbo"},
                                   {"depth-range", "400..3000"},
+                                  {"depth-percentile", "2.5"},
                                   {"dump", "cloud,colour,depth"}}) {
     const auto specs = output_setting_specs();
     const auto spec = std::ranges::find(specs, std::string_view(key), &SettingOf<OutputSettings>::key);
@@ -55,6 +56,7 @@ TEST(OutputSettings, TheOverlayIsSetAndPrinted) {
   EXPECT_TRUE(style.path && !style.marks && !style.outlines);
   EXPECT_EQ(style.map.range, (ValueRange{0.5F, 2}));
   EXPECT_EQ(style.depth.range_mm, (ValueRange{400, 3000}));
+  EXPECT_EQ(style.depth.percentile, 2.5);
 }
 
 }  // namespace

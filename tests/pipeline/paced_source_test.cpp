@@ -75,6 +75,44 @@ TEST_F(PacedSourceTest, FramesComeWhenTheirTimestampsAreDue) {
   EXPECT_NEAR(clock_->seconds(), 2.5, 1e-6) << "a gap lasts 2 s at most";
 }
 
+TEST_F(PacedSourceTest, OnlyThePartBetweenTheBoundsIsPlayed) {
+  open(10);
+  EXPECT_EQ(next(2), (Indices{0, 1}));
+  playback_->set_in(3);
+  playback_->set_out(5);
+  EXPECT_EQ(next(8), (Indices{2, 3, 4, 5, 3, 4, 5, 3})) << "and looped";
+  playback_->set_loop(false);
+  EXPECT_EQ(next(3), (Indices{4, 5, -1}));
+  EXPECT_TRUE(playback_->state().at_end);
+  playback_->play();
+  EXPECT_EQ(next(2), (Indices{3, 4}));
+  playback_->step(4);
+  EXPECT_EQ(next(), 8) << "a step may leave the part";
+  playback_->play();
+  EXPECT_EQ(next(2), (Indices{9, -1}));
+}
+
+TEST_F(PacedSourceTest, ABoundAtTheFrameOnScreenHoldsAtOnce) {
+  open(10);
+  EXPECT_EQ(next(5), (Indices{0, 1, 2, 3, 4}));
+  EXPECT_EQ(next(milliseconds(1)), -1) << "the next one has been read ahead";
+  playback_->set_out(4);
+  EXPECT_EQ(next(2), (Indices{0, 1}));
+  playback_->set_in(7);
+  EXPECT_FALSE(playback_->state().out) << "it was before the new start";
+  playback_->set_out(6);
+  EXPECT_FALSE(playback_->state().in);
+}
+
+TEST_F(PacedSourceTest, APartWithoutUsableFramesPauses) {
+  open(10, {}, {4, 5});
+  playback_->set_in(4);
+  playback_->set_out(5);
+  playback_->seek(4);
+  for (int i = 0; i < 6 && !playback_->state().paused; ++i)
+    EXPECT_NE(source_->read(frame_, milliseconds(60'000)).status, ReadStatus::end);
+}
+
 TEST_F(PacedSourceTest, TheLastFrameIsFoundWhereTheirNumberIsNotKnown) {
   auto recording = std::make_unique<TimedSource>(10);
   recording->hide_count();

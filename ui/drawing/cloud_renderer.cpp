@@ -1,6 +1,7 @@
 #include "ui/drawing/cloud_renderer.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <string>
 
@@ -50,10 +51,10 @@ unsigned compile(GLenum kind, const char* source) {
   int good = 0;
   glGetShaderiv(shader, GL_COMPILE_STATUS, &good);
   if (good == 0) {
-    std::string message(512, '\0');
+    std::array<char, 512> message{};
     glGetShaderInfoLog(shader, static_cast<int>(message.size()), nullptr, message.data());
     glDeleteShader(shader);
-    fail("cannot compile the point cloud's shader", message.c_str());
+    fail("cannot compile the point cloud's shader", message.data());
   }
   return shader;
 }
@@ -70,10 +71,10 @@ unsigned link_program() {
   int good = 0;
   glGetProgramiv(program, GL_LINK_STATUS, &good);
   if (good == 0) {
-    std::string message(512, '\0');
+    std::array<char, 512> message{};
     glGetProgramInfoLog(program, static_cast<int>(message.size()), nullptr, message.data());
     glDeleteProgram(program);
-    fail("cannot link the point cloud's shaders", message.c_str());
+    fail("cannot link the point cloud's shaders", message.data());
   }
   return program;
 }

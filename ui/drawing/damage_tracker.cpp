@@ -35,8 +35,11 @@ void unite(std::vector<cv::Rect>& rects) {
 }  // namespace
 
 bool DamageTracker::Triangle::operator==(const Triangle& other) const {
-  return texture == other.texture && std::memcmp(corners, other.corners, sizeof corners) == 0 &&
-         std::memcmp(&clip, &other.clip, sizeof clip) == 0;
+  // The same bits draw the same pixels.
+  const auto same_bits = [](const auto& a, const auto& b) {
+    return std::memcmp(&a, &b, sizeof a) == 0;  // NOLINT(bugprone-suspicious-memory-comparison)
+  };
+  return texture == other.texture && same_bits(corners, other.corners) && same_bits(clip, other.clip);
 }
 
 void DamageTracker::flatten(const ImDrawList& list, List& out) {

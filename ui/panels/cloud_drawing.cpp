@@ -226,7 +226,7 @@ void draw_axes_and_scale(const OrbitCamera& camera, ImVec2 corner, cv::Size view
 }  // namespace
 
 OrbitCamera camera_for_frame(const Frame& frame) {
-  const auto range = percentile_range(frame.depth_mm, 4);
+  const auto range = percentile_range(frame.depth_mm, 25);
   const double target_mm =
       range ? (static_cast<double>(range->low) + static_cast<double>(range->high)) / 2 : 1000;
   return OrbitCamera::at_sensor(frame.intrinsics, frame.size(), target_mm);

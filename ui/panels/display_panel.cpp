@@ -14,6 +14,7 @@ namespace {
 
 bool palette_combo(const char* id, Palette& palette) {
   std::vector<std::string> names;
+  names.reserve(std::size(kPalettes));
   for (const Palette p : kPalettes) names.emplace_back(to_string(p));
   std::string name(to_string(palette));
   if (!word_combo(id, names, name)) return false;
@@ -21,11 +22,16 @@ bool palette_combo(const char* id, Palette& palette) {
   return true;
 }
 
-bool share_slider(const char* id, double& share) {
-  auto percent = static_cast<float>(100 * share);
-  if (!ImGui::SliderFloat(id, &percent, 0, 100, "%.0f %%", ImGuiSliderFlags_AlwaysClamp)) return false;
-  share = static_cast<double>(percent) / 100;
+bool percent_slider(const char* id, double& percent, float largest) {
+  auto shown = static_cast<float>(percent);
+  if (!ImGui::SliderFloat(id, &shown, 0, largest, "%.0f %%", ImGuiSliderFlags_AlwaysClamp)) return false;
+  percent = static_cast<double>(shown);
   return true;
+}
+
+void share_slider(const char* id, double& share) {
+  double percent = 100 * share;
+  if (percent_slider(id, percent, 100)) share = percent / 100;
 }
 
 // An automatic range that can be locked at its present values and then be changed.
@@ -69,8 +75,7 @@ void draw_depths(ViewContext& view, ValueRange range) {
                        *std::ranges::max_element(bins), {ImGui::GetContentRegionAvail().x, view.px(56)});
   explain(
       "How often each depth occurs, from 0 to the largest reading, with its smallest and largest. The lines "
-      "are "
-      "the range of the colours: without a lock, the 1st to the 99th percentile");
+      "are the range of the colours");
   const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
   for (const float end : {range.low, range.high}) {
     const float x = low.x + (high.x - low.x) * std::min(1.0F, end / static_cast<float>(farthest));
@@ -101,10 +106,16 @@ void draw_display_panel(ViewContext& view) {
   if (style.background == Background::depth) {
     named_row("Depth colours", "Near is the bright end; black has no reading");
     palette_combo("##depth_palette", style.depth.palette);
-    const auto automatic = view.result ? percentile_range(view.result->frame().depth_mm, 100) : std::nullopt;
+    const auto automatic =
+        view.result ? shown_range(view.result->frame().depth_mm, {.percentile = style.depth.percentile})
+                    : std::nullopt;
     const ValueRange range = automatic.value_or(ValueRange{500, 4000});
     if (view.result) draw_depths(view, style.depth.range_mm.value_or(range));
     draw_range(view, "depth", style.depth.range_mm, range, 10, "%.0f mm");
+    if (!style.depth.range_mm) {
+      named_row("Left out", "Share of the depths beyond each end of the automatic range, in percent");
+      percent_slider("##depth_percentile", style.depth.percentile, 25);
+    }
   }
   ImGui::Spacing();
   ImGui::Checkbox("Saliency map", &view.state.show_map);
@@ -123,8 +134,7 @@ void draw_display_panel(ViewContext& view) {
       ImGui::Checkbox("A and B on one range", &view.state.common_range);
       explain(
           "The same colour is the same value in both maps; applies where both are of one model and no range "
-          "is "
-          "locked");
+          "is locked");
     }
     draw_range(view, "map", style.map.range, automatic, 0.01F, "%.2f");
   }

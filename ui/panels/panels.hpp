@@ -19,6 +19,7 @@ void draw_top_bar(ViewContext& view);
 void draw_tuning_panel(ViewContext& view);
 void draw_display_panel(ViewContext& view);
 void draw_transport(ViewContext& view);
+void draw_timeline(ViewContext& view, std::int64_t frames);  ///< of a recording of `frames` > 0 frames
 void draw_messages(ViewContext& view);
 void draw_performance_panel(ViewContext& view);
 

@@ -142,6 +142,7 @@ void draw_plot(const StageHistory& history) {
   ImGui::InvisibleButton("plot", {width, height});
   // A single slow frame must not flatten the rest: the axis is for 98 % of them.
   std::vector<float> totals;
+  totals.reserve(stacks.size());
   for (const StageHistory::Stack& stack : stacks) totals.push_back(stack.back());
   std::sort(totals.begin(), totals.end());
   const double largest = totals.empty() ? 0 : static_cast<double>(totals[(totals.size() - 1) * 98 / 100]);

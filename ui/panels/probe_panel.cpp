@@ -1,6 +1,7 @@
 #include "ui/panels/probe_panel.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "saliency/params.hpp"
 #include "ui/panels/fixation_panel.hpp"
@@ -25,8 +26,8 @@ std::optional<Symmetry3dParams> params_for(const Settings& settings, cv::Size si
 std::vector<double> ProbePanel::weights_of(const Computed& computed, const Symmetry3dParams& params,
                                            const Source& source) {
   const std::vector<cv::Mat1f>& maps = computed.result.maps.levels;
-  const auto levels = static_cast<std::size_t>(params.last_level - params.first_level + 1);
-  if (params.normalisation == LevelNormalisation::none || maps.size() != levels) return {};
+  const int levels = params.last_level - params.first_level + 1;
+  if (params.normalisation == LevelNormalisation::none || std::cmp_not_equal(maps.size(), levels)) return {};
   if (weighed_ && weighed_->serial == source.serial && weighed_->b == source.b) return weights_;
   weights_.clear();
   for (const cv::Mat1f& map : maps) {

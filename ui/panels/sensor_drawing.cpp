@@ -83,7 +83,7 @@ void draw_device(const DeviceChoice& device, bool open, SensorActions& actions) 
   ImGui::BeginDisabled(open);
   if (ImGui::SmallButton(open ? "In use" : "Open")) actions.open = device.source;
   ImGui::EndDisabled();
-  explain(device.source.c_str());
+  explain(device.source);
   ImGui::SameLine();
   wrapped_text(device.detail.empty() ? device.name : fmt::format("{} ({})", device.name, device.detail));
   ImGui::PopID();

@@ -1,6 +1,3 @@
-#include <algorithm>
-#include <cmath>
-
 #include <fmt/format.h>
 #include <imgui.h>
 
@@ -76,67 +73,6 @@ std::string position_text(const ViewContext& view, float room) {
   return ImGui::CalcTextSize(more.c_str()).x <= room ? more : text;
 }
 
-// A bar for each computed frame: the saliency of its strongest fixation.
-void draw_strengths(const ViewContext& view, ImVec2 corner, ImVec2 size, std::int64_t frames) {
-  ImDrawList& draw = *ImGui::GetWindowDrawList();
-  const float largest = view.timeline.largest();
-  if (!(largest > 0)) return;
-  const auto width = static_cast<double>(size.x);
-  const float bar = std::max(1.0F, size.x / static_cast<float>(frames) - view.px(1));
-  for (std::size_t i = 0; i < view.timeline.entries().size(); ++i) {
-    const Timeline::Entry& entry = view.timeline.entries()[i];
-    if (!entry.seen || static_cast<std::int64_t>(i) >= frames) continue;
-    const float x = corner.x + static_cast<float>(frame_x(static_cast<std::int64_t>(i), width, frames));
-    const float height = std::min(1.0F, entry.strength / largest) * size.y;
-    draw.AddRectFilled({x - bar / 2, corner.y + size.y - std::max(height, 1.0F)},
-                       {x + bar / 2, corner.y + size.y},
-                       entry.current ? view.colours->plot : view.colours->plot_old);
-  }
-}
-
-void draw_ticks(const ViewContext& view, ImVec2 corner, float width, std::int64_t frames) {
-  ImDrawList& draw = *ImGui::GetWindowDrawList();
-  const float label = ImGui::CalcTextSize(fmt::format("{}", frames).c_str()).x + view.px(16);
-  const std::int64_t step = tick_step(static_cast<double>(width), frames, static_cast<double>(label));
-  for (std::int64_t i = 0; i < frames; i += step) {
-    const float x = corner.x + static_cast<float>(frame_x(i, static_cast<double>(width), frames));
-    const std::string text = fmt::format("{}", i);
-    draw.AddText({x - ImGui::CalcTextSize(text.c_str()).x / 2, corner.y}, view.colours->dim_text,
-                 text.c_str());
-  }
-}
-
-void draw_line(ViewContext& view, std::int64_t frames) {
-  const ImVec2 corner = ImGui::GetCursorScreenPos();
-  const float width = ImGui::GetContentRegionAvail().x, height = view.px(34);
-  ImGui::InvisibleButton("##timeline", {width, height + ImGui::GetFontSize() + view.px(3)});
-  view.places["timeline"] = {corner.x, corner.y, corner.x + width, corner.y + height};
-  ImDrawList& draw = *ImGui::GetWindowDrawList();
-  draw.AddRectFilled(corner, {corner.x + width, corner.y + height}, ImGui::GetColorU32(ImGuiCol_FrameBg),
-                     view.px(4));
-  draw_strengths(view, corner, {width, height}, frames);
-  draw_ticks(view, {corner.x, corner.y + height + view.px(3)}, width, frames);
-  const std::int64_t under =
-      frame_at(static_cast<double>(ImGui::GetIO().MousePos.x - corner.x), static_cast<double>(width), frames);
-  if (ImGui::IsItemActive() && (ImGui::IsItemActivated() || ImGui::GetIO().MouseDelta.x != 0) &&
-      under != view.playback.position)
-    view.session.playback().seek(under);
-  if (ImGui::IsItemHovered()) {
-    const auto& entries = view.timeline.entries();
-    const auto place = static_cast<std::size_t>(under);
-    const bool seen = place < entries.size() && entries[place].seen;
-    ImGui::SetTooltip("%s", (seen ? fmt::format("frame {}, saliency of its strongest fixation {:.2f}", under,
-                                                entries[place].strength)
-                                  : fmt::format("frame {}, not computed yet", under))
-                                .c_str());
-  }
-  if (!view.result) return;
-  const float x =
-      corner.x + static_cast<float>(frame_x(view.result->frame().index, static_cast<double>(width), frames));
-  draw.AddLine({x, corner.y - view.px(2)}, {x, corner.y + height + view.px(2)}, view.colours->accent,
-               view.px(2));
-}
-
 void draw_contents(ViewContext& view) {
   draw_buttons(view);
   ImGui::SameLine(0, view.px(16));
@@ -158,7 +94,7 @@ void draw_contents(ViewContext& view) {
   } else {
     ImGui::NewLine();
   }
-  if (frames > 0) draw_line(view, frames);
+  if (frames > 0) draw_timeline(view, frames);
 }
 
 }  // namespace

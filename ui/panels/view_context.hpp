@@ -40,6 +40,7 @@ struct ViewContext {
   PlaybackState playback;
   // Of the open source:
   Timeline timeline;
+  TimelineZoom timeline_zoom;
   StageHistory history;
   RequestedOutputs outputs;  ///< by-products that a panel requests; cleared before each frame
 

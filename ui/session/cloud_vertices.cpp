@@ -89,7 +89,7 @@ void build_normal_lines(const Frame& frame, const cv::Mat3f& normals, int every,
   vertices.clear();
   for (int r = every / 2; r < normals.rows; r += every)
     for (int c = every / 2; c < normals.cols; c += every) {
-      const cv::Vec3f n = normals(r, c);
+      const cv::Vec3f& n = normals(r, c);
       if (n == cv::Vec3f()) continue;
       const cv::Vec3f foot = points(r, c), tip = foot + length_mm * n;
       vertices.push_back({{foot[0], foot[1], foot[2]}, kFoot, {}});

@@ -36,12 +36,12 @@ std::string program_word() {
 }
 
 std::string run_command_line(const std::string& program, const std::string& source, const Settings& settings,
-                             std::int64_t index) {
+                             const std::optional<PlayRange>& frames) {
   Settings shown = settings;
-  if (index >= 0) {
-    shown.start = index;
-    shown.frames = 1;
-    shown.every = 1;
+  if (frames) {
+    shown.start = frames->start;
+    shown.frames = frames->limit;
+    shown.every = frames->every;
   }
   // Settings of the window's own run do not belong into the command.
   shown.json = shown.quiet = false;

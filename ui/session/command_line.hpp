@@ -1,8 +1,9 @@
 #pragma once
 
-#include <cstdint>
+#include <optional>
 #include <string>
 
+#include "pipeline/playback_controls.hpp"
 #include "settings/settings.hpp"
 
 namespace saccade {
@@ -13,9 +14,9 @@ namespace saccade {
 /// How a shell starts this program: "saccade" where that finds it, else its path.
 [[nodiscard]] std::string program_word();
 
-/// The headless command that computes frame `index` of a source (or the source from now on, if `index` < 0)
-/// with these settings: `PROGRAM run SOURCE --out out/view ...` with every setting that is not the default.
+/// The headless command that computes these frames of a recording (none = a sensor, from now on) with these
+/// settings: `PROGRAM run SOURCE --out out/view ...` with every setting that is not the default.
 [[nodiscard]] std::string run_command_line(const std::string& program, const std::string& source,
-                                           const Settings& settings, std::int64_t index);
+                                           const Settings& settings, const std::optional<PlayRange>& frames);
 
 }  // namespace saccade

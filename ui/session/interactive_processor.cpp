@@ -189,7 +189,7 @@ void InteractiveProcessor::process(Result& result) {
 
 std::shared_ptr<ViewResult> InteractiveProcessor::compute(const Result& result, const ComputeRequest& request,
                                                           std::int64_t generation, Part part) {
-  const std::shared_ptr<ViewResult> view = Pool::take(results_);
+  std::shared_ptr<ViewResult> view = Pool::take(results_);
   view->draft = part == Part::draft;
   view->generation = generation;
   view->compared = request.b.has_value();
@@ -198,8 +198,8 @@ std::shared_ptr<ViewResult> InteractiveProcessor::compute(const Result& result, 
   a.frame.intrinsics = camera_of(result.frame, request.a);
   a.times = result.times;
   a.captured_at = result.captured_at;
-  const auto fill = [&](ModelRunner& whole, ModelRunner& draft, Settings settings, const Computed* known,
-                        SequenceMemory& memory, Computed& out) {
+  const auto fill = [&](ModelRunner& whole, ModelRunner& draft, const Settings& settings,
+                        const Computed* known, SequenceMemory& memory, Computed& out) {
     const SequenceMemory& other = &memory == &a_memory_ ? b_memory_ : a_memory_;
     const ModelRunner::Attend over_time = [&](Computed& computed) { attend(memory, other, computed); };
     const bool has = known != nullptr && has_maps(*known, settings, request.outputs);

@@ -20,6 +20,8 @@ constexpr std::array kShortcuts = {
     Shortcut{Action::slower, key_of(','), false, false, kPlay, "Slower"},
     Shortcut{Action::faster, key_of('.'), false, false, kPlay, "Faster"},
     Shortcut{Action::toggle_loop, key_of('L'), false, false, kPlay, "Loop on or off"},
+    Shortcut{Action::mark_in, key_of('I'), false, false, kPlay, "Play from this frame on"},
+    Shortcut{Action::mark_out, key_of('I'), false, true, kPlay, "Play up to this frame"},
 
     Shortcut{Action::kernel_down, key_of('['), false, false, kTune, "Smaller kernel"},
     Shortcut{Action::kernel_down, key_of('-'), false, false, kTune, "Smaller kernel"},

@@ -11,6 +11,7 @@ namespace saccade {
 /// Everything that a key or a button can do.
 enum class Action {
   play_pause, previous_frame, next_frame, back_10, forward_10, first_frame, last_frame, slower, faster, toggle_loop,
+  mark_in, mark_out,
   kernel_down, kernel_up, next_model, previous_model, next_selector, undo, redo, copy_command,
   toggle_map, toggle_marks, toggle_path, toggle_outlines, toggle_background, next_palette, fit_picture,
   next_comparison, swap_sides, next_centre, toggle_sidebar, toggle_theme, open_source, save_settings,

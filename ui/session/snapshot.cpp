@@ -44,7 +44,7 @@ void write_side(const fs::path& folder, const Computed& computed, const OverlayS
 
 fs::path write_snapshot(const fs::path& base, const ViewResult& result, const OverlayStyle& style,
                         std::chrono::system_clock::time_point now) {
-  const fs::path folder = unused_path(base, "snapshot", "", now);
+  fs::path folder = unused_path(base, "snapshot", "", now);
   write_side(result.compared ? folder / "a" : folder, result.a, style);
   if (result.compared) write_side(folder / "b", result.b, style);
   return folder;

@@ -93,6 +93,7 @@ std::string view_state_json(const ViewState& state) {
                      {"background", word(kBackgrounds, state.style.background)},
                      {"depth_palette", to_string(state.style.depth.palette)},
                      {"depth_range_mm", range_json(state.style.depth.range_mm)},
+                     {"depth_percentile", state.style.depth.percentile},
                      {"map", state.show_map},
                      {"map_palette", to_string(map.palette)},
                      {"map_opacity", map.opacity},
@@ -130,6 +131,7 @@ void apply_view_state(ViewState& state, const std::string& text) {
   read(json, "background", kBackgrounds, state.style.background);
   read(json, "depth_palette", state.style.depth.palette);
   read(json, "depth_range_mm", state.style.depth.range_mm);
+  read(json, "depth_percentile", state.style.depth.percentile, 0, 25);
   read(json, "map", state.show_map);
   MapStyle& map = state.style.map;
   read(json, "map_palette", map.palette);

@@ -8,6 +8,14 @@
 #include "ui/window/viewer.hpp"
 
 namespace saccade {
+namespace {
+
+// A bound at the frame on screen; none if it is there already, or if there is no frame.
+std::optional<std::int64_t> marked(std::optional<std::int64_t> bound, std::int64_t position) {
+  return position < 0 || bound == position ? std::nullopt : std::optional(position);
+}
+
+}  // namespace
 
 void Viewer::handle_keys() {
   const bool typing = ImGui::GetIO().WantTextInput || ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId);
@@ -98,6 +106,12 @@ bool Viewer::act_on_playback(Action action) {
       return true;
     case Action::toggle_loop:
       playback.set_loop(!now.loop);
+      return true;
+    case Action::mark_in:
+      playback.set_in(marked(now.in, now.position));
+      return true;
+    case Action::mark_out:
+      playback.set_out(marked(now.out, now.position));
       return true;
     default:
       return false;
@@ -208,14 +222,20 @@ void Viewer::act_on_window(Action action) {
   }
 }
 
-// While comparing: a line for each side.
+// Of the marked part of a recording, else of the frame on screen. While comparing: a line for each side.
 void Viewer::copy_command() {
-  const bool recorded = !view_.source.source.live && view_.result;
-  const std::int64_t index = recorded ? view_.result->frame().index : -1;
+  std::optional<PlayRange> frames;
+  const PlaybackState& playing = view_.playback;
+  if (!view_.source.source.live && (playing.in || playing.out)) {
+    const std::int64_t start = playing.in.value_or(0);
+    frames = PlayRange{start, 1, playing.out ? *playing.out - start + 1 : 0};
+  } else if (!view_.source.source.live && view_.result) {
+    frames = PlayRange{view_.result->frame().index, 1, 1};
+  }
   const std::string program = program_word();
   const auto line = [&](Settings settings) {
     settings.overlay = shown_style(state_);
-    return run_command_line(program, view_.source.uri, settings, index);
+    return run_command_line(program, view_.source.uri, settings, frames);
   };
   std::string text = line(state_.settings.a);
   if (state_.comparing()) text += "\n" + line(state_.settings.b);

@@ -136,6 +136,7 @@ void Viewer::start_with_source() {
   opened_ = view_.source.opened;
   sidebar_.sensors().end_recording();  // a recording holds one source
   view_.timeline.reset(view_.source.source.frame_count.value_or(0));
+  view_.timeline_zoom.reset();
   view_.history.clear();
   view_.errors.clear();
   view_.recorded.clear();

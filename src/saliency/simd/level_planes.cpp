@@ -20,17 +20,17 @@ DepthPacking DepthPacking::for_depths(float largest_mm, bool multiples_of_eighth
     return static_cast<int>(std::bit_width(static_cast<std::uint64_t>(largest)));
   };
   DepthPacking packing;
-  const auto depth_bits = [&](int columns) {
-    return bits(columns * rows * (std::ceil(static_cast<double>(largest_mm) * packing.units_per_mm) + 1));
+  const auto depth_bits_of = [&](int together) {
+    return bits(together * rows * (std::ceil(static_cast<double>(largest_mm) * packing.units_per_mm) + 1));
   };
-  const auto fits = [&](int columns) { return depth_bits(columns) + bits(columns * rows) <= 32; };
+  const auto fits = [&](int together) { return depth_bits_of(together) + bits(together * rows) <= 32; };
   packing.units_per_mm = multiples_of_eighths ? 8 : 256;
   while (packing.units_per_mm > 8 && largest_mm * packing.units_per_mm > kMostUnits)
     packing.units_per_mm /= 2;
   while (!fits(1)) packing.units_per_mm /= 2;
   packing.columns = 1;
   while (packing.columns < rows && fits(packing.columns + 1)) ++packing.columns;
-  packing.depth_bits = depth_bits(packing.columns);
+  packing.depth_bits = depth_bits_of(packing.columns);
   return packing;
 }
 
@@ -43,7 +43,7 @@ LevelPlanes::LevelPlanes(cv::Size size, int reach)
   stride_ = stride;
   const std::size_t plane =
       static_cast<std::size_t>(stride_) * static_cast<std::size_t>(height_ + 2 * kMarginRows) +
-      9 * kVectorFloats;
+      std::size_t{9} * kVectorFloats;
   memory_ = allocate_aligned<float>(plane * kPlanes);
   for (std::size_t p = 0; p < kPlanes; ++p) {
     float* begin = memory_.get() + p * plane;

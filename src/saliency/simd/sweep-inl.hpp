@@ -110,6 +110,7 @@ HWY_INLINE void sweep_positions(const Points& points, const Column& column, cons
     const VF z = in_register(load(points.depth + j));
     const VI p = in_register(hn::BitCast(di, load(points.packed + j)));
     const VF q = hn::Mul(hn::Sub(z, planes.z0), load(points.inverse + j));
+    // NOLINTNEXTLINE(clang-analyzer-deadcode.DeadStores): read only where there is one sweep.
     VF nx = zero(), ny = zero(), nz = zero();
     if constexpr (kSweepsOnce) {
       nx = in_register(load(points.normal_x + j));

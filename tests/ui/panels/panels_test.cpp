@@ -122,6 +122,37 @@ TEST_F(TransportTest, TheTimeLineShowsTheStrengthsAndThePresentFrame) {
   ASSERT_TRUE(ImGuiFrames::box_of(view_.colours->accent, low, high));
 }
 
+TEST_F(TransportTest, TheWheelZoomsTheTimeLineAndTheRightButtonMarksAPart) {
+  show_result();
+  for (std::int64_t i = 0; i < 16; ++i) view_.timeline.add(i, 1, true);
+  settled(draw_);
+  const auto [left, top, right, bottom] = view_.places.at("timeline");
+  ImGuiIO& io = ImGui::GetIO();
+  const ImVec2 at{left + (right - left) / 4, (top + bottom) / 2};
+  io.MousePos = at;
+  settled(draw_);
+  io.MouseWheel = 2;
+  frames_.frame(draw_);
+  const VisibleFrames visible = view_.timeline_zoom.visible(16);
+  EXPECT_LT(visible.count, 12);
+  EXPECT_NEAR(visible.first + visible.count / 4, 4, 0.01) << "the place under the mouse stays";
+
+  view_.timeline_zoom.reset();
+  io.MouseDown[ImGuiMouseButton_Right] = true;
+  settled(draw_);
+  io.MousePos.x = left + (right - left) * 0.72F;
+  settled(draw_);
+  io.MouseDown[ImGuiMouseButton_Right] = false;
+  settled(draw_);
+  EXPECT_EQ(session_.playback().state().in, 4);
+  EXPECT_EQ(session_.playback().state().out, 11);
+  io.MouseDown[ImGuiMouseButton_Right] = true;
+  settled(draw_);
+  io.MouseDown[ImGuiMouseButton_Right] = false;
+  settled(draw_);
+  EXPECT_FALSE(session_.playback().state().in || session_.playback().state().out);
+}
+
 class WideTest : public ViewerPanelsTest {
  protected:
   WideTest() : ViewerPanelsTest(1280, 800) {}

@@ -1,4 +1,6 @@
 // Zoom and pan, the time line, and the drawings over a picture.
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "ui/session/overlay_shapes.hpp"
@@ -50,19 +52,72 @@ TEST(PictureView, CannotBeLostOrZoomedWithoutEnd) {
 }
 
 TEST(Timeline, PlacesAndFramesAgree) {
-  for (const std::int64_t frames : {1, 7, 1000})
-    for (std::int64_t i = 0; i < frames; ++i) EXPECT_EQ(frame_at(frame_x(i, 500, frames), 500, frames), i);
-  EXPECT_EQ(frame_at(-5, 500, 10), 0);
-  EXPECT_EQ(frame_at(900, 500, 10), 9);
-  EXPECT_EQ(frame_at(5, 500, 0), 0);
+  for (const VisibleFrames& visible : {VisibleFrames{0, 1}, {0, 7}, {0, 1000}, {12.5, 30}}) {
+    const auto end = static_cast<std::int64_t>(visible.first + visible.count);
+    for (auto i = static_cast<std::int64_t>(std::ceil(visible.first)); i < end; ++i)
+      EXPECT_EQ(frame_at(frame_x(i, 500, visible), 500, visible), i);
+  }
+  EXPECT_EQ(frame_at(-5, 500, {0, 10}), 0);
+  EXPECT_EQ(frame_at(900, 500, {0, 10}), 9);
+  EXPECT_EQ(frame_at(-5, 500, {20, 10}), 20);
+  EXPECT_EQ(frame_at(900, 500, {20, 10}), 29);
+  EXPECT_EQ(frame_at(5, 500, {}), 0);
 }
 
 TEST(Timeline, TicksDoNotTouch) {
-  EXPECT_EQ(tick_step(500, 10, 40), 1);
-  EXPECT_EQ(tick_step(500, 100, 40), 10);
-  EXPECT_EQ(tick_step(500, 15000, 40), 2000);
-  for (std::int64_t frames = 1; frames < 3000; frames += 7)
-    EXPECT_GE(static_cast<double>(tick_step(500, frames, 40)) * 500 / static_cast<double>(frames), 40);
+  EXPECT_EQ(tick_step(500, {0, 10}, 40), 1);
+  EXPECT_EQ(tick_step(500, {0, 100}, 40), 10);
+  EXPECT_EQ(tick_step(500, {0, 15000}, 40), 2000);
+  for (double frames = 1; frames < 3000; frames += 7)
+    EXPECT_GE(static_cast<double>(tick_step(500, {50, frames}, 40)) * 500 / frames, 40);
+}
+
+TEST(TimelineZoom, KeepsThePlaceUnderTheMouse) {
+  TimelineZoom zoom;
+  EXPECT_FALSE(zoom.zoomed());
+  EXPECT_EQ(zoom.visible(1000).count, 1000);
+  zoom.zoom(3, 0.25, 1000);
+  const VisibleFrames visible = zoom.visible(1000);
+  EXPECT_LT(visible.count, 600);
+  EXPECT_NEAR(visible.first + 0.25 * visible.count, 250, 1e-9);
+  zoom.zoom(100, 0.25, 1000);
+  EXPECT_EQ(zoom.visible(1000).count, 10);
+  zoom.zoom(-100, 0.9, 1000);
+  EXPECT_FALSE(zoom.zoomed());
+  zoom.zoom(5, 0.5, 4);
+  EXPECT_EQ(zoom.visible(4).count, 4) << "so few frames are always all visible";
+}
+
+TEST(TimelineZoom, StaysInsideAndFollowsNewFrames) {
+  TimelineZoom zoom;
+  zoom.zoom(3, 0, 1000);
+  const double count = zoom.visible(1000).count;
+  zoom.pan(-5, 1000);
+  EXPECT_EQ(zoom.visible(1000).first, 0);
+  zoom.pan(50, 1000);
+  EXPECT_EQ(zoom.visible(1000).first, 1000 - count);
+  zoom.follow(40, 1000);
+  EXPECT_EQ(zoom.visible(1000).first, 40);
+  zoom.pan(0.5, 1000);
+  const double moved = zoom.visible(1000).first;
+  zoom.follow(40, 1000);
+  EXPECT_EQ(zoom.visible(1000).first, moved) << "the user may look elsewhere while the frame stays";
+  zoom.follow(41, 1000);
+  EXPECT_EQ(zoom.visible(1000).first, 41);
+}
+
+TEST(Timeline, FramesOfOneColumnShareABar) {
+  Timeline line;
+  line.reset(1000);
+  for (std::int64_t i = 0; i < 1000; ++i) line.add(i, i == 3 ? 9.0F : 1.0F, i != 3);
+  line.add(7, 5, true);
+  const auto bars = timeline_bars(line.entries(), {0, 1000}, 100);
+  ASSERT_EQ(bars.size(), 100U);
+  EXPECT_EQ(bars[0].strength, 5) << "the strongest of the current ones";
+  EXPECT_TRUE(bars[0].current);
+  EXPECT_EQ(bars[1].strength, 1);
+  EXPECT_EQ(timeline_bars(line.entries(), {0, 10}, 100).size(), 10U);
+  EXPECT_EQ(timeline_bars(line.entries(), {995, 10}, 100).size(), 5U) << "there are no more";
 }
 
 TEST(Timeline, RemembersFramesAndScalesByTheCurrentOnes) {

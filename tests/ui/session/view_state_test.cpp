@@ -50,6 +50,7 @@ TEST(ViewState, ComesBackFromItsJson) {
   state.style.background = Background::depth;
   state.style.map = {Palette::inferno, 0.5, 0.25, ValueRange{0.5F, 2}};
   state.style.depth.range_mm = ValueRange{600, 2500};
+  state.style.depth.percentile = 5;
   state.style.path = false;
   state.comparison = Comparison::split;
   state.divider = 0.3;
@@ -126,7 +127,7 @@ TEST(ViewState, StepsThroughModelsKernelsAndSpeeds) {
 
 TEST(CommandLine, HoldsOnlySettingsThatDifferFromTheDefault) {
   Settings s;
-  EXPECT_EQ(run_command_line("saccade", "a b.oni", s, 7),
+  EXPECT_EQ(run_command_line("saccade", "a b.oni", s, PlayRange{7, 1, 1}),
             "saccade run 'a b.oni' --out out/view --frames 1 --start 7");
   s.kernel = 31;
   s.model = "combined";
@@ -138,9 +139,16 @@ TEST(CommandLine, HoldsOnlySettingsThatDifferFromTheDefault) {
   s.overlay.path = false;
   apply_setting(s, "levels", "0..4");
   EXPECT_EQ(
-      run_command_line("/opt/my tools/saccade", "dir", s, -1),
+      run_command_line("/opt/my tools/saccade", "dir", s, std::nullopt),
       "'/opt/my tools/saccade' run dir --out out/view --model combined --kernel 31 --levels 0..4 "
       "--no-registration --mirror --overlay fixations,outlines --map-colours viridis --map-range 0..0.1");
+}
+
+TEST(CommandLine, APartOfARecordingHasAStartAndALength) {
+  EXPECT_EQ(run_command_line("saccade", "a.oni", {}, PlayRange{20, 1, 11}),
+            "saccade run a.oni --out out/view --frames 11 --start 20");
+  EXPECT_EQ(run_command_line("saccade", "a.oni", {}, PlayRange{20, 1, 0}),
+            "saccade run a.oni --out out/view --start 20");
 }
 
 TEST(CommandLine, WordsSurviveAShell) {

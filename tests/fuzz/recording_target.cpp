@@ -1,5 +1,5 @@
-// The libFuzzer target: reads any bytes as a recording. Built with clang by -DSACCADE_FUZZ=ON.
-#include "exercise.hpp"
+// The libFuzzer target of the recording reader.
+#include "tests/oni/exercise.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   saccade::exercise({data, size});

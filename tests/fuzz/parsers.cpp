@@ -1,0 +1,298 @@
+#include "parsers.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include <hdf5.h>
+
+#include "core/file.hpp"
+#include "core/png.hpp"
+#include "drivers/modules/virtual_spec.hpp"
+#include "eval/result_file.hpp"
+#include "settings/settings.hpp"
+#include "sources/meta_json.hpp"
+#include "sources/open_source.hpp"
+#include "sources/pcd.hpp"
+#include "sources/poses_file.hpp"
+#include "tests/eval/samples.hpp"
+#include "tests/sources/ffv1_writer.hpp"
+#include "tests/sources/matroska_writer.hpp"
+#include "tests/sources/nyu_writer.hpp"
+#include "tests/sources/pcd_writer.hpp"
+#include "tests/support/memory_file.hpp"
+#include "tests/support/no_wait.hpp"
+#include "tests/support/proper_error.hpp"
+
+namespace saccade {
+namespace {
+
+namespace fs = std::filesystem;
+
+// A folder of this process, removed when it ends.
+class Folder {
+ public:
+  explicit Folder(const std::string& name)
+      : path_(fs::temp_directory_path() / ("saccade_fuzz_" + std::to_string(::getpid())) / name) {
+    fs::create_directories(path_);
+  }
+  ~Folder() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+    fs::remove(path_.parent_path(), ignored);  // if this was its last folder
+  }
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+  fs::path operator/(const char* name) const { return path_ / name; }
+  const fs::path& path() const { return path_; }
+
+ private:
+  fs::path path_;
+};
+
+Bytes bytes_of(std::string_view text) { return {text.begin(), text.end()}; }
+std::string text_of(std::span<const std::uint8_t> bytes) { return {bytes.begin(), bytes.end()}; }
+
+cv::Mat1w small_depth(int shift = 0) {
+  cv::Mat1w depth(12, 16);
+  for (int r = 0; r < depth.rows; ++r)
+    for (int c = 0; c < depth.cols; ++c) depth(r, c) = static_cast<std::uint16_t>(800 + 20 * r + c + shift);
+  return depth;
+}
+
+// Opens a source and reads its first frames, and the first one again.
+bool play(const std::string& uri) {
+  return proper_error_at_worst(ExitStatus::unreadable, [&] {
+    const auto source = open_source(uri);
+    Frame frame;
+    const auto read = [&] {
+      const ReadResult result = source->read(frame, kNoWait);
+      if (result.status == ReadStatus::rejected && result.reason.find('\n') != std::string::npos)
+        throw std::logic_error("a reason of several lines: " + result.reason);
+      if (result.status != ReadStatus::frame) return;
+      if (frame.size() != source->info().size) throw std::logic_error("a frame of another size");
+      if (!frame.colour.empty() && frame.colour.size() != frame.size())
+        throw std::logic_error("colour of another size");
+    };
+    for (int k = 0; k < 4; ++k) read();
+    source->seek(0);
+    read();
+  });
+}
+
+// Writers of test files want a path.
+template <typename Write>
+Bytes written(const char* name, const Write& write) {
+  const Folder folder("seeds");
+  write(folder / name);
+  return read_file(folder / name);
+}
+
+std::vector<Bytes> pcd_seeds() {
+  cv::Mat1f depth;
+  small_depth().convertTo(depth, CV_32F);
+  depth(3, 4) = 0;
+  std::vector<Bytes> seeds;
+  for (const PcdEncoding encoding : {PcdEncoding::ascii, PcdEncoding::binary, PcdEncoding::compressed})
+    seeds.push_back(write_pcd(depth, {20, 20, 7.5, 5.5}, encoding));
+  return seeds;
+}
+
+bool read_any_pcd(std::span<const std::uint8_t> bytes) {
+  try {
+    const OrganisedCloud cloud = read_pcd(bytes);
+    if (cloud.depth_mm.empty()) throw std::logic_error("an empty cloud");
+    return true;
+  } catch (const std::runtime_error&) {  // the reason, as its header says
+    return false;
+  }
+}
+
+std::vector<Bytes> mat_seeds() {
+  return {written("seed.mat", [](const fs::path& path) {
+    NyuWriter file(path);
+    file.put<float>("depths", H5T_NATIVE_FLOAT, [](int i, int r, int c, int) {
+      return static_cast<float>(1 + i) + 0.01F * static_cast<float>(r + c);
+    });
+    file.put<std::uint8_t>(
+        "images", H5T_NATIVE_UINT8, [](int i, int r, int c, int k) { return 50 * k + i + r + c; }, 3);
+    file.put<std::uint16_t>("labels", H5T_NATIVE_UINT16, [](int, int r, int, int) { return r < 4 ? 7 : 0; });
+    file.put<std::uint8_t>("instances", H5T_NATIVE_UINT8, [](int, int, int c, int) { return c < 4 ? 1 : 2; });
+  })};
+}
+
+bool read_any_mat(std::span<const std::uint8_t> bytes) {
+  static const Folder folder("mat");
+  write_file(folder / "seed.mat", bytes);
+  return play((folder / "seed.mat").string());
+}
+
+std::vector<Bytes> png_seeds() {
+  std::vector<Bytes> seeds = {encode_png(small_depth())};
+  cv::Mat1b grey;
+  small_depth().convertTo(grey, CV_8U, 0.1);
+  seeds.push_back(encode_png(grey));
+  cv::Mat3b colour;
+  cv::merge(std::vector<cv::Mat>{grey, grey, grey}, colour);
+  seeds.push_back(encode_png(colour));
+  return seeds;
+}
+
+bool read_any_png(std::span<const std::uint8_t> bytes) {
+  try {
+    if (decode_png(bytes).empty()) throw std::logic_error("an empty picture");
+    return true;
+  } catch (const std::runtime_error&) {  // the reason, as its header says
+    return false;
+  }
+}
+
+std::vector<Bytes> tum_seeds() {
+  return {bytes_of("# timestamp filename\n1305031102.160407 depth/1.png\n1305031102.194330 depth/2.png\n"),
+          bytes_of("0.1 depth/1.png\n0.1 depth/2.png\n\n-5 depth/3.png\n1e9 depth/1.png\n")};
+}
+
+// A TUM folder whose list of depth images is given.
+bool read_any_tum_list(std::span<const std::uint8_t> bytes) {
+  static const Folder folder("tum");
+  static const bool once = [] {
+    fs::create_directories(folder / "depth");
+    for (const char* name : {"depth/1.png", "depth/2.png"})
+      write_file(folder / name, encode_png(small_depth()));
+    write_file(folder / "rgb.txt", std::string_view("1305031102.175304 rgb/1.png\n"));
+    return true;
+  }();
+  static_cast<void>(once);
+  write_file(folder / "depth.txt", bytes);
+  return play(folder.path().string());
+}
+
+std::vector<Bytes> meta_seeds() {
+  return {bytes_of(R"({"fx": 525.0, "fy": 525.0, "cx": 319.5, "cy": 239.5})"),
+          bytes_of(R"({"note": "a\u00e9", "list": [1, {"a": []}, true]})")};
+}
+
+bool read_any_meta(std::span<const std::uint8_t> bytes) {
+  static const Folder folder("meta");
+  write_file(folder / "meta.json", bytes);
+  return proper_error_at_worst(ExitStatus::unreadable, [&] {
+    const auto camera = read_meta(folder.path());
+    if (camera && !(camera->fx > 0 && camera->fy > 0))
+      throw std::logic_error("a camera without focal length");
+  });
+}
+
+std::vector<Bytes> poses_seeds() {
+  return {bytes_of("1 0 0 0.5 0 1 0 -0.25 0 0 1 2 0 0 0 1\n1 0 0 0 0 0 -1 0 0 1 0 0 0 0 0 1\n")};
+}
+
+bool read_any_poses(std::span<const std::uint8_t> bytes) {
+  static const Folder folder("poses");
+  write_file(folder / "poses.txt", bytes);
+  return proper_error_at_worst(ExitStatus::unreadable, [&] { static_cast<void>(read_poses(folder.path())); });
+}
+
+std::vector<Bytes> toml_seeds() {
+  std::string all;
+  const Settings defaults;
+  for (const SettingSpec& spec : setting_specs())
+    all += std::string(spec.key) + " = \"" + spec.print(defaults) + "\"\n";
+  return {bytes_of(
+              "model = \"combined\"\nkernel = 31 # px\nlevels = \"0..4\"\nmap-opacity = 0.5\nquiet = true\n"),
+          bytes_of(all)};
+}
+
+bool read_any_toml(std::span<const std::uint8_t> bytes) {
+  const MemoryFile file(bytes);
+  return proper_error_at_worst(ExitStatus::usage, [&] {
+    Settings settings;
+    load_settings(settings, file.path());
+  });
+}
+
+std::vector<Bytes> results_seeds() {
+  const EvalPlan plan = sample_plan();
+  std::string lines = plan_line(plan) + "\n";
+  for (const ImageResult& image : sample_images()) lines += image_line(image) + "\n";
+  return {bytes_of(lines), bytes_of(lines + end_line() + "\n")};
+}
+
+bool read_any_results(std::span<const std::uint8_t> bytes) {
+  static const Folder folder("results");
+  write_file(folder / kResultFile, bytes);
+  return proper_error_at_worst(ExitStatus::unreadable,
+                               [&] { static_cast<void>(read_results(folder.path())); });
+}
+
+std::vector<Bytes> virtual_seeds() {
+  return {
+      bytes_of("a.oni?loss_after=30&loss=silent&back_after_ms=500&rate=15"),
+      bytes_of(
+          "synthetic:table?seed=3&late_ms=20&stall_ms=100&stall_after=5&short_frame=7&ignores_settings=1")};
+}
+
+bool read_any_virtual(std::span<const std::uint8_t> bytes) {
+  return proper_error_at_worst(ExitStatus::usage, [&] { static_cast<void>(parse_virtual(text_of(bytes))); });
+}
+
+std::vector<Bytes> uri_seeds() {
+  return {bytes_of("table?seed=4&frames=30&camera=orbit&noise=kinect"),
+          bytes_of("table?seed=1&size=320x240&event=add&at=1.5")};
+}
+
+// The text behind "synthetic:", which nobody plays here: rendering takes long.
+bool read_any_synthetic(std::span<const std::uint8_t> bytes) {
+  return proper_error_at_worst(ExitStatus::usage,
+                               [&] { static_cast<void>(open_source("synthetic:" + text_of(bytes))); });
+}
+
+std::vector<Bytes> mkv_seeds() {
+  const std::vector<cv::Mat1w> images = {small_depth(), small_depth(3), small_depth(9)};
+  std::vector<Bytes> seeds;
+  for (const int level : {1, 3})
+    seeds.push_back(
+        written("seed.mkv", [&](const fs::path& path) { write_ffv1(path, images, {.level = level}); }));
+  seeds.push_back(written("seed.mkv", [&](const fs::path& path) {
+    std::vector<Bytes> packets;
+    for (const cv::Mat1w& image : images) packets.emplace_back(image.datastart, image.dataend);
+    write_raw_matroska(path, images[0].size(), 33, packets);
+  }));
+  return seeds;
+}
+
+bool read_any_mkv(std::span<const std::uint8_t> bytes) {
+  static const Folder folder("mkv");
+  write_file(folder / "seed.mkv", bytes);
+  return play((folder / "seed.mkv").string());
+}
+
+constexpr std::array kParsers = {
+    FuzzedParser{"mat", mat_seeds, read_any_mat},
+    FuzzedParser{"meta", meta_seeds, read_any_meta},
+    FuzzedParser{"mkv", mkv_seeds, read_any_mkv},
+    FuzzedParser{"pcd", pcd_seeds, read_any_pcd},
+    FuzzedParser{"png", png_seeds, read_any_png},
+    FuzzedParser{"poses", poses_seeds, read_any_poses},
+    FuzzedParser{"results", results_seeds, read_any_results},
+    FuzzedParser{"synthetic", uri_seeds, read_any_synthetic},
+    FuzzedParser{"toml", toml_seeds, read_any_toml},
+    FuzzedParser{"tum", tum_seeds, read_any_tum_list},
+    FuzzedParser{"virtual", virtual_seeds, read_any_virtual},
+};
+
+}  // namespace
+
+std::span<const FuzzedParser> fuzzed_parsers() { return kParsers; }
+
+const FuzzedParser& fuzzed_parser(std::string_view name) {
+  const auto found = std::ranges::find(kParsers, name, &FuzzedParser::name);
+  if (found == kParsers.end()) throw std::invalid_argument("no such parser: " + std::string(name));
+  return *found;
+}
+
+}  // namespace saccade

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <hdf5.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace saccade {
+
+/// Writes a small file in the format of NYU Depth V2, with libhdf5 as MATLAB lays it out.
+class NyuWriter {
+ public:
+  static constexpr int kImages = 3, kHeight = 10, kWidth = 12;
+
+  explicit NyuWriter(const std::filesystem::path& path) {
+    // MATLAB puts a block of 512 bytes of its own before the file of HDF5.
+    const hid_t creation = H5Pcreate(H5P_FILE_CREATE);
+    H5Pset_userblock(creation, 512);
+    file_ = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation, H5P_DEFAULT);
+    H5Pclose(creation);
+  }
+  ~NyuWriter() { close(); }
+  NyuWriter(const NyuWriter&) = delete;
+  NyuWriter& operator=(const NyuWriter&) = delete;
+
+  void close() {
+    if (file_ >= 0) H5Fclose(file_);
+    file_ = -1;
+  }
+
+  /// An array of `shape` whose value at image, row and column (and colour) is value(i, r, c, k); stored as
+  /// image, [colour,] column, row, in chunks of one image.
+  template <typename Value, typename Function>
+  void put(const std::string& name, hid_t type, Function value, int colours = 0, int images = kImages,
+           int height = kHeight) {
+    std::vector<hsize_t> shape = {static_cast<hsize_t>(images), kWidth, static_cast<hsize_t>(height)};
+    if (colours > 0) shape.insert(shape.begin() + 1, static_cast<hsize_t>(colours));
+    std::vector<Value> values;
+    for (int i = 0; i < images; ++i)
+      for (int k = 0; k < std::max(colours, 1); ++k)
+        for (int c = 0; c < kWidth; ++c)
+          for (int r = 0; r < height; ++r) values.push_back(static_cast<Value>(value(i, r, c, k)));
+    const int axes = static_cast<int>(shape.size());
+    const hid_t space = H5Screate_simple(axes, shape.data(), nullptr), layout = H5Pcreate(H5P_DATASET_CREATE);
+    std::vector<hsize_t> chunk = shape;
+    chunk[0] = 1;
+    H5Pset_chunk(layout, axes, chunk.data());
+    H5Pset_deflate(layout, 3);
+    const hid_t data = H5Dcreate2(file_, name.c_str(), type, space, H5P_DEFAULT, layout, H5P_DEFAULT);
+    H5Dwrite(data, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data());
+    H5Dclose(data);
+    H5Pclose(layout);
+    H5Sclose(space);
+  }
+
+ private:
+  hid_t file_ = -1;
+};
+
+}  // namespace saccade
