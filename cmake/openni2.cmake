@@ -26,6 +26,10 @@ foreach(file libOpenNI2.so.0 OpenNI2/Drivers/libPS1080.so.0 OpenNI2/Drivers/libP
   install(FILES ${SACCADE_REDIST}/${file} DESTINATION ${SACCADE_REDIST_INSTALLED}/${folder})
 endforeach()
 
+file(STRINGS ${OPENNI2_INCLUDE_DIR}/OniVersion.h openni2_numbers REGEX "define ONI_VERSION_(MAJOR|MINOR|MAINTENANCE|BUILD)\t")
+list(TRANSFORM openni2_numbers REPLACE ".*\t([0-9]+).*" "\\1")
+list(JOIN openni2_numbers "." OPENNI2_VERSION)
+
 # saccade_driver_module(NAME SOURCES file... LINK target...): the OpenNI2 driver module libNAME.so.0.
 add_custom_target(saccade_driver_modules)
 function(saccade_driver_module name)
@@ -44,8 +48,8 @@ function(saccade_driver_module name)
   add_dependencies(saccade_driver_modules ${name})
 endfunction()
 
-# saccade_use_sensors(TARGET [INSTALLED]); INSTALLED: the program is installed into CMAKE_INSTALL_BINDIR and built into
-# PROJECT_BINARY_DIR.
+# saccade_use_sensors(TARGET [INSTALLED]); INSTALLED: the program has been installed by install(TARGETS) into
+# CMAKE_INSTALL_BINDIR, and is built into PROJECT_BINARY_DIR.
 function(saccade_use_sensors target)
   cmake_parse_arguments(arg "INSTALLED" "" "" ${ARGN})
   target_link_libraries(${target} PRIVATE OpenNI2::OpenNI2)
@@ -57,9 +61,11 @@ function(saccade_use_sensors target)
     set_target_properties(${target} PROPERTIES BUILD_RPATH ${SACCADE_REDIST})
     return()
   endif()
-  # One RUNPATH for the build tree and for the installed program. Where they differ, CMake ends that of the build tree
-  # with an empty entry, and there the loader looks in the working directory.
+  # A RUNPATH that CMake is to replace when it installs gets an empty last entry, and there the loader looks in the
+  # working directory. So the build tree has that of both places, and it is cut when the program has been installed.
   file(RELATIVE_PATH installed ${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_FULL_LIBDIR}/saccade/openni2)
   set_target_properties(${target} PROPERTIES
     BUILD_WITH_INSTALL_RPATH ON INSTALL_RPATH "$ORIGIN/openni2;$ORIGIN/${installed}")
+  set(file "\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_BINDIR}/$<TARGET_FILE_NAME:${target}>")
+  install(CODE "file(RPATH_SET FILE \"${file}\" NEW_RPATH \"$ORIGIN/${installed}\")")
 endfunction()

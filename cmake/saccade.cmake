@@ -22,14 +22,16 @@ if(SACCADE_SANITIZE)
   add_link_options(-fsanitize=${SACCADE_SANITIZE})
 endif()
 
-# OpenCV's headers flood -Wconversion; its imported targets are system includes already.
+# OpenCV with its headers, which flood -Wconversion, as system headers. cmake/package.cmake exports the target without
+# their folder, and SaccadeConfig.cmake adds the one of the machine at hand.
 add_library(saccade_opencv INTERFACE)
 add_library(saccade::opencv ALIAS saccade_opencv)
 target_link_libraries(saccade_opencv INTERFACE opencv_core opencv_imgproc opencv_imgcodecs)
-target_include_directories(saccade_opencv SYSTEM INTERFACE ${OpenCV_INCLUDE_DIRS})
+target_include_directories(saccade_opencv SYSTEM INTERFACE $<BUILD_INTERFACE:${OpenCV_INCLUDE_DIRS}>)
 set_target_properties(saccade_opencv PROPERTIES EXPORT_NAME opencv)
 
 # saccade_library(NAME SOURCES file... LINK target... PRIVATE_LINK target...): the library saccade::NAME of one folder.
+# cmake/package.cmake says which of them are installed.
 function(saccade_library name)
   cmake_parse_arguments(arg "" "" "SOURCES;LINK;PRIVATE_LINK" ${ARGN})
   add_library(saccade_${name} STATIC ${arg_SOURCES})

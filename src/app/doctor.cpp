@@ -47,7 +47,7 @@ void check_openni2(const Examination& found, std::vector<Problem>& problems) {
     if (!left_out(found, name) && found.openni2.module(name) == nullptr)
       problems.push_back(
           {fmt::format("our driver module {} is not in {}", name, found.openni2.driver_folder.string()),
-           "./run --help, which first builds missing parts"});
+           "install saccade again, or build it again with all of its targets"});
   for (const char* name : {"PS1080", "PSLink"})
     if (found.openni2.module(name) == nullptr)
       problems.push_back({fmt::format("the driver module {} of OpenNI2 is not in {}", name,

@@ -19,18 +19,10 @@
 #include <CLI/CLI.hpp>
 #include <opencv2/core.hpp>
 
-#include "app/bench_command.hpp"
-#include "app/devices_command.hpp"
-#include "app/doctor_command.hpp"
-#include "app/eval_command.hpp"
-#include "app/oni_command.hpp"
-#include "app/record_command.hpp"
-#include "app/run_command.hpp"
+#include "app/commands.hpp"
 #include "app/standard_output.hpp"
-#include "app/view_command.hpp"
 #include "core/error.hpp"
 #include "core/text.hpp"
-#include "core/version.hpp"
 
 namespace {
 
@@ -68,23 +60,13 @@ void set_up_log() {
 int run_program(int argc, char** argv) {
   set_up_log();
 
-  CLI::App app{"Saccade: saliency and attention points of RGB-D images by local 3D symmetry"};
-  app.set_version_flag("--version", std::string("saccade ") + saccade::kVersion);
-  app.require_subcommand(1);
+  CLI::App app;
   std::function<void()> action;
-
-  saccade::add_view_command(app, action);
-  saccade::add_run_command(app, action, {argv, argv + argc});
-  saccade::add_record_command(app, action);
-  saccade::add_devices_command(app, action);
-  saccade::add_doctor_command(app, action);
-  saccade::add_eval_command(app, action);
-  saccade::add_oni_command(app, action);
-  saccade::add_bench_command(app, action);
+  saccade::add_commands(app, action, {argv, argv + argc});
 
   try {
     app.parse(argc, argv);
-  } catch (const CLI::Success& success) {  // --help, --version
+  } catch (const CLI::Success& success) {  // --help
     std::ostringstream text;
     app.exit(success, text);
     saccade::print_text(text.str());
@@ -92,6 +74,7 @@ int run_program(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return report(std::string(error.what()) + " (see saccade --help)", ExitStatus::usage);
   }
+  if (!action) return report("no command (see saccade --help)", ExitStatus::usage);
   action();
   return static_cast<int>(ExitStatus::done);
 }

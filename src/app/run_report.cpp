@@ -9,6 +9,8 @@
 
 #include "app/progress.hpp"
 #include "core/version.hpp"
+#include "output/fixations_json.hpp"
+#include "settings/settings_format.hpp"
 
 namespace saccade {
 namespace {
@@ -109,6 +111,8 @@ Json summary_json(const RunReport& report) {
 
 Json manifest_json(const RunReport& report) {
   Json json = summary_json(report);
+  json["formats"] = {
+      {"manifest", kManifestFormat}, {"fixations", kFixationsFormat}, {"settings", kSettingsFormat}};
   json["command_line"] = report.command_line;
   json["source"] = source_json(report.source);
   json["intrinsics"] = intrinsics_json(report.settings.intrinsics.value_or(report.source.intrinsics));

@@ -16,6 +16,9 @@
 
 namespace saccade {
 
+/// Version of the format of manifest.json (README.md, Versions).
+inline constexpr int kManifestFormat = 1;
+
 /// What a run did, for manifest.json and the summaries.
 struct RunReport {
   std::string status = "running";  ///< running, done, interrupted or failed

@@ -8,13 +8,13 @@
 
 #include "core/error.hpp"
 #include "core/version.hpp"
+#include "eval/evaluation_format.hpp"
 
 namespace saccade {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr int kFormat = 3;  // of results.jsonl
 constexpr int kMostShards = 100'000;
 constexpr std::int64_t kMostPositions = 1'000'000'000'000;
 
@@ -93,14 +93,15 @@ Json plan_json(const EvalPlan& plan) {
   for (const SettingSpec& spec : setting_specs())
     if (is_kept(spec)) settings[std::string(spec.key)] = spec.print(plan.settings);
   for (const Selector selector : plan.selectors) selectors.push_back(to_string(selector));
-  return {{"format", kFormat},        {"version", kVersion},   {"dataset", plan.dataset},
-          {"frames", plan.positions}, {"models", plan.models}, {"kernels", plan.kernels},
-          {"selectors", selectors},   {"points", plan.points}, {"settings", settings},
-          {"shard", plan.shard},      {"shards", plan.shards}};
+  return {{"format", kEvaluationFormat}, {"version", kVersion},   {"dataset", plan.dataset},
+          {"frames", plan.positions},    {"models", plan.models}, {"kernels", plan.kernels},
+          {"selectors", selectors},      {"points", plan.points}, {"settings", settings},
+          {"shard", plan.shard},         {"shards", plan.shards}};
 }
 
 EvalPlan plan_from_json(const Json& json) {
-  if (json.at("format") != kFormat) throw usage_error("results of another version", "", "evaluate again");
+  if (json.at("format") != kEvaluationFormat)
+    throw usage_error("results of another version", "", "evaluate again");
   EvalPlan plan;
   plan.dataset = json.at("dataset");
   const auto integer = [&](const char* key, std::int64_t low, std::int64_t high) {

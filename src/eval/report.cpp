@@ -8,6 +8,7 @@
 
 #include "attention/confidence.hpp"
 #include "core/version.hpp"
+#include "eval/evaluation_format.hpp"
 #include "eval/hit_ratio.hpp"
 
 namespace saccade {
@@ -217,7 +218,7 @@ std::string csv_text(const EvalPlan& plan, const std::vector<ImageResult>& image
 }
 
 Json report_json(const EvalPlan& plan, const std::vector<ImageResult>& images, const Statistics& statistics) {
-  Json json = {{"program", "saccade"}, {"version", kVersion}};
+  Json json = {{"program", "saccade"}, {"version", kVersion}, {"format", kEvaluationFormat}};
   json["parameters"] = plan_json(plan);
   for (const char* key : {"format", "version", "shard", "shards"}) json["parameters"].erase(key);
   if (plan.shards > 1) json["shard"] = fmt::format("{}/{}", plan.shard, plan.shards);

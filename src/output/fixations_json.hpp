@@ -6,6 +6,9 @@
 
 namespace saccade {
 
+/// Version of the format of fixations.jsonl (src/app/README.md, Versions).
+inline constexpr int kFixationsFormat = 1;
+
 /// A frame's line of fixations.jsonl (README.md), without the line feed. Positions are in mm in camera frame;
 /// 0, 0, 0 means that there is no depth reading at the pixel. Fixations of `proto` also have their confidence
 /// and describe their proto-object; "ended_early" says why there are fewer than requested.

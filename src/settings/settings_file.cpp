@@ -1,4 +1,5 @@
 #include <charconv>
+#include <cstdint>
 #include <vector>
 
 #include <fmt/format.h>
@@ -7,6 +8,7 @@
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "settings/settings.hpp"
+#include "settings/settings_format.hpp"
 
 namespace saccade {
 namespace {
@@ -25,11 +27,20 @@ std::string as_text(const toml::node& node) {
   throw usage_error("not a value", "", "a number, a string, true, false or a list is expected");
 }
 
+void check_format(const toml::node& node) {
+  const auto format = node.value<std::int64_t>();
+  if (!format || *format < 1) throw usage_error("bad value for format", "", "a number from 1 is expected");
+  if (*format > kSettingsFormat)
+    throw usage_error(
+        fmt::format("settings of format {}", *format), "",
+        fmt::format("this version reads formats up to {}; a newer Saccade wrote them", kSettingsFormat));
+}
+
 }  // namespace
 
 void load_settings(Settings& settings, const std::string& path) {
   const auto bytes = read_file(path, 1u << 20);
-  const std::string hint = "config/default.toml lists all keys";
+  const std::string hint = "saccade settings --default lists all keys";
   toml::table table;
   try {
     table = toml::parse(std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()), path);
@@ -39,7 +50,10 @@ void load_settings(Settings& settings, const std::string& path) {
   }
   for (const auto& [key, node] : table) {
     try {
-      apply_setting(settings, key.str(), as_text(node));
+      if (key.str() == "format")
+        check_format(node);
+      else
+        apply_setting(settings, key.str(), as_text(node));
     } catch (const Error& error) {
       throw usage_error(error.what(), fmt::format("{}:{}", path, node.source().begin.line), hint);
     }
@@ -47,7 +61,9 @@ void load_settings(Settings& settings, const std::string& path) {
 }
 
 std::string settings_toml(const Settings& settings) {
-  std::string text = "# Settings of Saccade that differ from the default. Use them with --config FILE.\n";
+  std::string text = fmt::format(
+      "# Settings of Saccade that differ from the default. Use them with --config FILE.\nformat = {}\n",
+      kSettingsFormat);
   for (const SettingSpec& spec : setting_specs()) {
     if (is_default(spec, settings)) continue;
     const std::string value = spec.print(settings);

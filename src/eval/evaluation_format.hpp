@@ -1,0 +1,8 @@
+#pragma once
+
+namespace saccade {
+
+/// Version of the format of results.jsonl and report.json (src/app/README.md, Versions).
+inline constexpr int kEvaluationFormat = 3;
+
+}  // namespace saccade
