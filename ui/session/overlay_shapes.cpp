@@ -39,11 +39,13 @@ cv::Point2f mark_place(const PictureView& view, const Computed& computed, std::s
 void add_path(OverlayShapes& shapes, const Computed& computed, const PictureView& view, float width) {
   std::vector<cv::Point2f> path;
   if (!computed.marks) {
+    path.reserve(computed.result.attention.fixations.size());
     for (std::size_t i = 0; i < computed.result.attention.fixations.size(); ++i)
       path.push_back(mark_place(view, computed, i));
     if (path.size() > 1) add_line(shapes, std::move(path), false, width, {255, 255, 255, 190});
     return;
   }
+  path.reserve(computed.marks->trail.size());
   for (const cv::Point2d& p : computed.marks->trail) path.push_back(view.to_panel(p));
   for (std::size_t i = 1; i < path.size(); ++i) {
     const auto opacity = static_cast<std::uint8_t>(210 * i / (path.size() - 1));
