@@ -57,10 +57,12 @@ TEST(Options, EachCommandAcceptsTheScopesThatItUses) {
   EXPECT_EQ(accepted("run"), keys_of({Scope::model, Scope::attention, Scope::tracking, Scope::frames,
                                       Scope::sensor, Scope::output, Scope::program}));
 #ifdef SACCADE_HAS_VIEWER
-  EXPECT_EQ(accepted("view"),
-            keys_of({Scope::model, Scope::attention, Scope::frames, Scope::sensor, Scope::program}));
+  EXPECT_EQ(accepted("view"), keys_of({Scope::model, Scope::attention, Scope::tracking, Scope::frames,
+                                       Scope::sensor, Scope::program}));
 #endif
-  EXPECT_EQ(accepted("record"), keys_of({Scope::sensor}, {"frames", "json", "quiet"}));
+  EXPECT_EQ(accepted("record"),
+            keys_of({Scope::sensor}, {"frames", "start", "every", "depth-unit", "topics", "json", "quiet"}));
+  EXPECT_EQ(accepted("export"), keys_of({Scope::frames, Scope::sensor}, {"json", "quiet"}));
   EXPECT_EQ(accepted("bench"), keys_of({Scope::model, Scope::attention}, {"json", "workers"}));
   EXPECT_EQ(accepted("eval"),
             keys_of({Scope::model, Scope::attention, Scope::frames, Scope::program}, {"json"},
