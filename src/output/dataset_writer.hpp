@@ -16,7 +16,7 @@ namespace saccade {
 /// "000012_depth.png": a file of this frame.
 std::string frame_file(std::int64_t index, std::string_view ending);
 
-/// Writes the meta.json that tells readers of `folder` how its frames are understood: the camera, unless it
+/// Writes the meta.json from which readers of `folder` know how its frames are stored: the camera, unless it
 /// is a guess, `depth_unit_mm` unless it is 0, size, rate and source. Throws Error (failed).
 void write_meta(const std::filesystem::path& folder, const SourceInfo& info, const Frame& first,
                 double depth_unit_mm);
