@@ -147,8 +147,8 @@ void add_view_command(CLI::App& app, std::function<void()>& action) {
                   "write a line of JSON for each frame of the window: its duration and its content")
       ->type_name("FILE");
   const auto options = std::make_shared<SettingsOptions>(
-      command, AcceptedSettings{{SettingScope::model, SettingScope::attention, SettingScope::frames,
-                                 SettingScope::sensor, SettingScope::program}});
+      command, AcceptedSettings{{SettingScope::model, SettingScope::attention, SettingScope::tracking,
+                                 SettingScope::frames, SettingScope::sensor, SettingScope::program}});
   command.callback(
       [arguments, options, &action] { action = [arguments, options] { view(*arguments, *options); }; });
 }

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
 #include <optional>
 #include <vector>
 
@@ -39,6 +38,14 @@ class Gaze {
   void clear();
 
  private:
+  // The last look at an object.
+  struct Look {
+    int id;
+    std::int64_t time_us;
+  };
+
+  const Look* look_at(int id) const;
+  void note_look(int id, std::int64_t time_us);
   const Target* next(std::int64_t time_us, const std::vector<Target>& targets) const;
   const Target* longest_ago(const std::vector<Target>& targets) const;
   bool may_return(std::int64_t time_us, int id) const;
@@ -48,7 +55,7 @@ class Gaze {
   Timing timing_;
   std::optional<int> current_;
   std::int64_t since_us_ = 0;
-  std::map<int, std::int64_t> last_look_us_;  // by id
+  std::vector<Look> looks_;  // one for each object
 };
 
 }  // namespace saccade

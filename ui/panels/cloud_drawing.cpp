@@ -86,10 +86,19 @@ double nice_length(double most) {
 struct Marker {
   ImVec2 at;
   std::size_t rank;
+  int id;  // over time; 0 = the rank is its number
   cv::Point3f position_mm;
   bool doubtful;  // see is_doubtful()
   bool hidden;    // behind a surface
 };
+
+ImU32 marker_colour(const Marker& marker, unsigned opacity) {
+  if (marker.doubtful) return IM_COL32(255, 255, 255, opacity);
+  if (marker.id == 0)
+    return marker.rank == 1 ? IM_COL32(80, 255, 80, opacity) : IM_COL32(255, 255, 255, opacity);
+  const cv::Scalar bgr = object_colour(marker.id);
+  return IM_COL32(static_cast<int>(bgr[2]), static_cast<int>(bgr[1]), static_cast<int>(bgr[0]), opacity);
+}
 
 // A number in a disc, with the position beside it if that covers no other text; faint and without the
 // position if it is hidden.
@@ -97,11 +106,10 @@ void draw_marker(ImDrawList& list, const Marker& marker, std::vector<Box>& taken
   const float em = ImGui::GetFontSize(), radius = 0.75F * em;
   const ImVec2 at = marker.at;
   const unsigned opacity = marker.hidden ? 90 : marker.doubtful ? 110 : 255;
-  const ImU32 colour = marker.rank == 1 && !marker.doubtful ? IM_COL32(80, 255, 80, opacity)
-                                                            : IM_COL32(255, 255, 255, opacity);
+  const ImU32 colour = marker_colour(marker, opacity);
   list.AddCircleFilled(at, radius, IM_COL32(0, 0, 0, marker.hidden ? 70 : 220));
   list.AddCircle(at, radius, colour, 0, em / 10);
-  const std::string number = fmt::format("{}", marker.rank);
+  const std::string number = fmt::format("{}", marker.id != 0 ? marker.id : static_cast<int>(marker.rank));
   const ImVec2 digits = ImGui::CalcTextSize(number.c_str());
   list.AddText({at.x - digits.x / 2, at.y - digits.y / 2}, colour, number.c_str());
   if (marker.hidden) return;
@@ -160,7 +168,7 @@ void draw_fixations(const CloudPanelState& state, const Frame& frame, const std:
     const auto at = state.camera.project(p, viewport);
     if (!at) continue;
     const ImVec2 screen(corner.x + static_cast<float>(at->x), corner.y + static_cast<float>(at->y));
-    markers.push_back({screen, i + 1, p, is_doubtful(fixations[i]), false});
+    markers.push_back({screen, i + 1, fixations[i].id, p, is_doubtful(fixations[i]), false});
     taken.push_back({{screen.x - radius, screen.y - radius}, {screen.x + radius, screen.y + radius}});
   }
   find_hidden(state.camera, frame, corner, viewport, markers);

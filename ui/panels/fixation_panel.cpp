@@ -24,7 +24,9 @@ double largest_extent(const Fixation& f) {
 }
 
 constexpr std::array<Column, 7> kColumns = {{
-    {"#", "Rank: the order in which the selector attends to them", nullptr},
+    {"#",
+     "In the order in which the selector attends to them: their rank or, over time, the number of the object",
+     nullptr},
     {"x", "Millimetres to the right of the camera",
      [](const Fixation& f) { return static_cast<double>(f.position_mm.x); }},
     {"y", "Millimetres below the camera",
@@ -66,13 +68,29 @@ void sort(std::vector<int>& order, const std::vector<Fixation>& fixations) {
 }  // namespace
 
 std::string fixation_text(const std::vector<Fixation>& fixations) {
-  std::string text = "rank\trow\tcol\tx_mm\ty_mm\tz_mm\tsize_mm\tsaliency\tconfidence\n";
+  std::string text = "rank\tid\trow\tcol\tx_mm\ty_mm\tz_mm\tsize_mm\tsaliency\tconfidence\n";
   int rank = 0;
   for (const Fixation& f : fixations)
-    text += fmt::format("{}\t{}\t{}\t{:.1f}\t{:.1f}\t{:.1f}\t{:.1f}\t{:g}\t{}\n", ++rank, f.row, f.col,
-                        f.position_mm.x, f.position_mm.y, f.position_mm.z, largest_extent(f), f.saliency,
+    text += fmt::format("{}\t{}\t{}\t{}\t{:.1f}\t{:.1f}\t{:.1f}\t{:.1f}\t{:g}\t{}\n", ++rank,
+                        f.id != 0 ? fmt::format("{}", f.id) : "", f.row, f.col, f.position_mm.x,
+                        f.position_mm.y, f.position_mm.z, largest_extent(f), f.saliency,
                         f.confidence ? fmt::format("{:.3f}", *f.confidence) : "");
   return text;
+}
+
+std::string object_text(const Computed& computed, int index) {
+  const Fixation& f = computed.result.attention.fixations[static_cast<std::size_t>(index)];
+  const SequenceMarks::Mark& mark = computed.marks->marks[static_cast<std::size_t>(index)];
+  return fmt::format(
+      "Object {}, rank {}{}\nknown for {:.1f} s, seen in {} frame{}\nlooked at {}\n"
+      "world {:.0f}, {:.0f}, {:.0f} mm",
+      f.id, index + 1,
+      computed.result.attention.sequence->gaze == f.id ? ", looked at now"
+      : mark.attended                                  ? ", looked at a moment ago"
+                                                       : "",
+      mark.age_s, f.age_frames, f.age_frames == 1 ? "" : "s",
+      mark.looks == 1 ? "once" : fmt::format("{} times", mark.looks), f.world_mm.x, f.world_mm.y,
+      f.world_mm.z);
 }
 
 void FixationPanel::draw(ViewContext& view) {
@@ -85,7 +103,7 @@ void FixationPanel::draw(ViewContext& view) {
     for (const Column& column : kColumns) ImGui::TableSetupColumn(column.name);
     draw_header();
     sort(order_, fixations);
-    for (const int index : order_) draw_row(view, fixations[static_cast<std::size_t>(index)], index);
+    for (const int index : order_) draw_row(view, *computed, index);
     ImGui::EndTable();
   }
   if (ImGui::Button("Copy as text")) {
@@ -105,7 +123,8 @@ void FixationPanel::draw(ViewContext& view) {
     wrapped_text(computed->result.attention.ended_early, Tone::quiet);
 }
 
-void FixationPanel::draw_row(ViewContext& view, const Fixation& fixation, int index) {
+void FixationPanel::draw_row(ViewContext& view, const Computed& computed, int index) {
+  const Fixation& fixation = computed.result.attention.fixations[static_cast<std::size_t>(index)];
   const bool chosen = index == view.locked, hovered_mark = index == view.hovered_mark;
   ImGui::TableNextRow();
   if (chosen || hovered_mark)
@@ -114,7 +133,8 @@ void FixationPanel::draw_row(ViewContext& view, const Fixation& fixation, int in
   ImGui::TableNextColumn();
   const std::string rank = fmt::format("{}", index + 1);
   constexpr int kFlags = ImGuiSelectableFlags_SpanAllColumns | ImGuiSelectableFlags_AllowDoubleClick;
-  if (ImGui::Selectable(rank.c_str(), false, kFlags)) {
+  const std::string number = computed.marks ? fmt::format("{}", fixation.id) : rank;
+  if (ImGui::Selectable(number.c_str(), false, kFlags)) {
     if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) {
       view.lock.lock(fixation);
       view.centre_on = fixation;
@@ -124,7 +144,8 @@ void FixationPanel::draw_row(ViewContext& view, const Fixation& fixation, int in
   }
   log_place(view, ("fixation " + rank).c_str());
   if (ImGui::IsItemHovered()) view.hovered_row = index;
-  explain("A click follows this fixation from frame to frame, a double click centres it");
+  explain((computed.marks ? object_text(computed, index) + "\n" : "") +
+          "A click follows this fixation from frame to frame, a double click centres it");
   const bool depth = fixation.position_mm.z > 0, object = fixation.proto_object.pixels > 0;
   number_cell(depth ? fmt::format("{:.0f}", fixation.position_mm.x) : "–");
   number_cell(depth ? fmt::format("{:.0f}", fixation.position_mm.y) : "–");

@@ -14,11 +14,15 @@ class FixationPanel {
   void draw(ViewContext& view);
 
  private:
-  void draw_row(ViewContext& view, const Fixation& fixation, int index);
+  void draw_row(ViewContext& view, const Computed& computed, int index);
   std::vector<int> order_;  // of the rows, as the user sorts them
 };
 
 /// The table as text: a heading and a line for each fixation, with tabs.
 [[nodiscard]] std::string fixation_text(const std::vector<Fixation>& fixations);
+
+/// What is known of the object of a fixation over time: "Object 7, seen for 3.2 s (96 frames), ...". Only
+/// with Computed::marks. `index` counts from 0.
+[[nodiscard]] std::string object_text(const Computed& computed, int index);
 
 }  // namespace saccade

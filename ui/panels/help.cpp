@@ -23,13 +23,17 @@ constexpr std::array<Row, 9> kMouse = {{
     {"Drop a file", "opens it"},
 }};
 
-constexpr std::array<Row, 8> kSeen = {{
+constexpr std::array<Row, 9> kSeen = {{
     {"Colours over the picture",
      "The saliency map, smoothed for display. Strong colours mark what attracts attention; the legend below "
      "the "
      "picture has the values. Weak values are transparent."},
-    {"Numbered discs", "Fixations, in the order in which the selector attends to them; the first is green."},
-    {"Lines between them", "The scan path, from each fixation to the next."},
+    {"Numbered discs",
+     "Fixations, in the order in which the selector attends to them; the first is green. Over time each "
+     "object "
+     "keeps its number and its colour; those that were looked at a moment ago are faint."},
+    {"Ring and trail", "Over time: the object that is looked at now, and where the gaze was before."},
+    {"Lines between them", "Frame by frame: the scan path, from each fixation to the next."},
     {"Outlines", "Proto-objects: the surface that the selector takes as one object around a fixation."},
     {"saliency",
      "Everywhere the value of the map at a pixel as it was computed, as in the files. The legend and the "

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "models/model.hpp"
+#include "ui/panels/fixation_panel.hpp"
 #include "ui/panels/widgets.hpp"
 #include "ui/session/map_difference.hpp"
 
@@ -40,6 +41,9 @@ void draw_shapes(ImDrawList& draw, const OverlayShapes& shapes, ImVec2 corner) {
                  {centre.x - size.x * scale / 2, centre.y - size.y * scale / 2}, as_u32(mark.rim),
                  mark.text.c_str());
   }
+  for (const auto& ring : shapes.rings)
+    draw.AddCircle({corner.x + ring.centre.x, corner.y + ring.centre.y}, ring.radius, as_u32(ring.colour), 0,
+                   ring.width);
 }
 
 ImVec2 chip_pad(const ViewContext& view) { return {view.px(7), view.px(3)}; }
@@ -237,9 +241,10 @@ void draw_rings(const ViewContext& view, const PictureSide& side, const OverlayS
 }
 
 // The tool tip of the fixation under the mouse.
-void explain_fixation(const Fixation& f, int rank) {
-  std::string text =
-      fmt::format("Fixation {}\nrow {}, column {}\nsaliency {:.3f}", rank + 1, f.row, f.col, f.saliency);
+void explain_fixation(const Computed& computed, int rank) {
+  const Fixation& f = computed.result.attention.fixations[static_cast<std::size_t>(rank)];
+  std::string text = computed.marks ? object_text(computed, rank) : fmt::format("Fixation {}", rank + 1);
+  text += fmt::format("\nrow {}, column {}\nsaliency {:.3f}", f.row, f.col, f.saliency);
   if (f.confidence) text += fmt::format("\nconfidence {:.2f}", *f.confidence);
   text += f.position_mm.z > 0 ? fmt::format("\nx y z {:.0f}, {:.0f}, {:.0f} mm", f.position_mm.x,
                                             f.position_mm.y, f.position_mm.z)
@@ -281,7 +286,7 @@ void draw_over_picture(ViewContext& view, const PictureSide& side, const Picture
   const int mark = mark_under(shapes, as_point({mouse.x - side.corner.x, mouse.y - side.corner.y}));
   if (mark < 0) return;
   if (!side.is_b) view.hovered_mark = mark;
-  explain_fixation(computed.result.attention.fixations[static_cast<std::size_t>(mark)], mark);
+  explain_fixation(computed, mark);
 }
 
 void draw_divider(ViewContext& view, const PictureSide& whole) {

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "saliency/params.hpp"
+#include "ui/panels/fixation_panel.hpp"
 #include "ui/panels/panel_text.hpp"
 
 namespace saccade {
@@ -56,6 +57,13 @@ void ProbePanel::probe_pixel(const ViewContext& view, const Source& source) {
   shown_ = std::move(shown);
 }
 
+// The object over time that holds the pixel.
+void ProbePanel::draw_object(const Computed& computed) const {
+  const cv::Mat1w& masks = computed.result.attention.masks;
+  if (!computed.marks || !cv::Rect({}, masks.size()).contains(*pixel_) || masks(*pixel_) == 0) return;
+  wrapped_text(object_text(computed, masks(*pixel_) - 1));
+}
+
 void ProbePanel::draw(ViewContext& view) {
   if (view.pinned) {
     pixel_ = view.pinned;
@@ -78,6 +86,7 @@ void ProbePanel::draw(ViewContext& view) {
     view.outputs.levels = view.state.settings.a.normalisation != LevelNormalisation::none ||
                           view.state.settings.b.normalisation != LevelNormalisation::none;
   }
+  if (inside) draw_object(on_b_ && view.result->compared ? view.result->b : view.result->a);
   draw_probe(shown_, state_);
   if (shown_)
     view.over_picture = [this](ImDrawList& list, const PicturePlace& place) {

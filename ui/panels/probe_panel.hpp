@@ -22,6 +22,7 @@ class ProbePanel {
     cv::Point pixel;
     bool operator==(const Source&) const = default;
   };
+  void draw_object(const Computed& computed) const;
   void probe_pixel(const ViewContext& view, const Source& source);
   std::vector<double> weights_of(const Computed& computed, const Symmetry3dParams& params,
                                  const Source& source);

@@ -91,6 +91,36 @@ void draw_attention(ViewContext& view, Settings& s) {
     s.foa = std::clamp(static_cast<double>(foa), 1.0, 1000.0);
 }
 
+void draw_seconds(const char* name, const char* explanation, double most, double& seconds) {
+  named_row(name, explanation);
+  auto value = static_cast<float>(seconds);
+  ImGui::PushID(name);
+  if (ImGui::SliderFloat("##seconds", &value, 0, static_cast<float>(most), "%.1f s",
+                         ImGuiSliderFlags_AlwaysClamp))
+    seconds = std::round(10 * static_cast<double>(value)) / 10;
+  ImGui::PopID();
+}
+
+// Shared by both sides of a comparison.
+void draw_over_time(ViewContext& view) {
+  Settings& s = view.state.settings.a;
+  ImGui::BeginDisabled(view.state.edited().selector != Selector::proto);
+  named_row(
+      "Tracking",
+      "Attention over time: objects keep their numbers and colours while the camera moves, and a gaze goes "
+      "from one to the next. auto: for sensors, recordings and videos");
+  int tracking = static_cast<int>(s.tracking);
+  if (segments(view, "tracking", choices_of("tracking"), tracking))
+    s.tracking = static_cast<Tracking>(tracking);
+  if (s.tracking != Tracking::off) {
+    draw_seconds("Dwell", "How long the gaze rests on one object", 5, s.dwell_s);
+    draw_seconds("Return after", "How long after it has left an object the gaze may return to it", 30,
+                 s.return_after_s);
+    draw_seconds("Memory", "How long an object out of sight is remembered", 120, s.memory_s);
+  }
+  ImGui::EndDisabled();
+}
+
 void draw_buttons(ViewContext& view) {
   ImGui::BeginDisabled(!view.can_undo);
   if (ImGui::Button("Undo")) view.act(Action::undo);
@@ -133,6 +163,7 @@ void draw_tuning_panel(ViewContext& view) {
   log_place(view, "model");
   draw_operator(view, s);
   draw_attention(view, s);
+  draw_over_time(view);
   ImGui::Dummy({0, view.px(2)});
   draw_buttons(view);
 }

@@ -49,8 +49,10 @@ class InteractiveProcessor::Pool {
   std::vector<std::unique_ptr<ViewResult>> spare_;
 };
 
-InteractiveProcessor::InteractiveProcessor(ComputeRequest request, std::int64_t generation, Hooks hooks)
-    : hooks_(std::move(hooks)),
+InteractiveProcessor::InteractiveProcessor(ComputeRequest request, std::int64_t generation, bool sequence,
+                                           Hooks hooks)
+    : sequence_(sequence),
+      hooks_(std::move(hooks)),
       request_(std::move(request)),
       generation_(generation),
       results_(std::make_shared<Pool>()) {}
@@ -101,12 +103,64 @@ void InteractiveProcessor::end_slow() {
   if (!stopped_) workers_->resume();
 }
 
+bool InteractiveProcessor::tracks(const Settings& settings) const {
+  return settings.selector == Selector::proto && saccade::tracks(settings, settings.selector, sequence_, "");
+}
+
+// A frame from before the last jump may still come after it. (After a jump back the index says it.)
+bool InteractiveProcessor::is_after_jump(const Frame& frame) {
+  const PlayJump jump = hooks_.last_jump ? hooks_.last_jump() : PlayJump{};
+  if (jump.count == jumps_ || frame.index < jump.index) return false;
+  jumps_ = jump.count;
+  return true;
+}
+
+// Starts to compute the surfaces and the camera's motion of a new frame.
+void InteractiveProcessor::follow(const Frame& frame, const ComputeRequest& request) {
+  const Intrinsics camera = camera_of(frame, request.a);
+  const bool known = followed_ && followed_->index == frame.index &&
+                     followed_->timestamp_us == frame.timestamp_us && followed_->size == frame.size() &&
+                     same_camera(followed_->camera, camera);
+  if (known || !(tracks(request.a) || (request.b && tracks(*request.b)))) return;
+  finish_following();
+  if (!follower_) follower_ = std::make_unique<FrameFollower>();
+  a_memory_.next_frame();
+  b_memory_.next_frame();
+  ++followed_count_;
+  followed_.emplace(Followed{frame.index, frame.timestamp_us, frame.size(), camera, frame, true, {}});
+  followed_->frame.intrinsics = camera;
+  follower_->start(followed_->frame, is_after_jump(frame));
+}
+
+// Waits for what follow() has started, and lets the pixels go, whose memory takes later frames.
+void InteractiveProcessor::finish_following() noexcept {
+  if (!followed_ || !followed_->busy) return;
+  try {
+    follower_->wait();
+  } catch (...) {
+    followed_->error = std::current_exception();
+  }
+  followed_->busy = false;
+  followed_->frame = Frame{};
+}
+
+void InteractiveProcessor::attend(SequenceMemory& memory, const SequenceMemory& other, Computed& computed) {
+  finish_following();
+  if (followed_->error) std::rethrow_exception(followed_->error);
+  memory.attend(*follower_, followed_count_, other, computed);
+}
+
 void InteractiveProcessor::process(Result& result) {
+  struct AtEnd {
+    InteractiveProcessor& processor;
+    ~AtEnd() { processor.finish_following(); }
+  } const at_end{*this};
   hooks_.begun();
   ComputeRequest request;
   std::int64_t generation = 0;
   while (take_request(result.frame, request, generation)) {
     if (!workers_) start(request.a);
+    follow(result.frame, request);
     const bool known = known_ && same_frame(known_->frame(), result.frame) &&
                        same_camera(known_->frame().intrinsics, camera_of(result.frame, request.a));
     if (!known) known_.reset();
@@ -145,19 +199,23 @@ std::shared_ptr<ViewResult> InteractiveProcessor::compute(const Result& result, 
   a.times = result.times;
   a.captured_at = result.captured_at;
   const auto fill = [&](ModelRunner& whole, ModelRunner& draft, const Settings& settings,
-                        const Computed* known, Computed& out) {
+                        const Computed* known, SequenceMemory& memory, Computed& out) {
+    const SequenceMemory& other = &memory == &a_memory_ ? b_memory_ : a_memory_;
+    const ModelRunner::Attend over_time = [&](Computed& computed) { attend(memory, other, computed); };
     const bool has = known != nullptr && has_maps(*known, settings, request.outputs);
     const auto reduced = view->draft && !has ? draft_of(settings, a.frame.size()) : std::nullopt;
     out.draft = reduced.has_value();
-    (reduced ? draft : whole).compute(reduced.value_or(settings), request.outputs, known, out);
+    (reduced ? draft : whole)
+        .compute(reduced.value_or(settings), request.outputs, known, out,
+                 tracks(settings) ? over_time : ModelRunner::Attend());
   };
-  fill(*a_, *draft_a_, request.a, known_ ? &known_->a : nullptr, view->a);
+  fill(*a_, *draft_a_, request.a, known_ ? &known_->a : nullptr, a_memory_, view->a);
   if (request.b) {
     Result& b = view->b.result;
     b.frame = a.frame;
     b.times = {};
     b.captured_at = a.captured_at;
-    fill(*b_, *draft_b_, *request.b, known_ && known_->compared ? &known_->b : nullptr, view->b);
+    fill(*b_, *draft_b_, *request.b, known_ && known_->compared ? &known_->b : nullptr, b_memory_, view->b);
   }
   return view;
 }

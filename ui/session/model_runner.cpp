@@ -19,6 +19,7 @@ void copy_attention(const Attention& from, Attention& to) {
   from.masks.copyTo(to.masks);
   to.fixations = from.fixations;
   to.ended_early = from.ended_early;
+  to.sequence = from.sequence;
 }
 
 }  // namespace
@@ -29,24 +30,31 @@ bool has_maps(const Computed& of, Settings settings, RequestedOutputs outputs) {
 }
 
 void ModelRunner::compute(const Settings& wanted, RequestedOutputs outputs, const Computed* last,
-                          Computed& out) {
+                          Computed& out, const Attend& attend) {
   const Frame& frame = out.result.frame;
   Settings settings = wanted;
   settings.last_level = last_level_for(settings, frame.size());
   out.settings = settings;
   out.outputs = outputs;
   out.error.clear();
+  out.marks.reset();
   try {
     prepare(settings, frame.size());
     find_maps(settings, outputs, last, out);
     if (last != nullptr && has_maps(*last, settings, outputs) &&
-        same_values(SettingScope::attention, last->settings, settings)) {
+        last->marks.has_value() == static_cast<bool>(attend) &&
+        same_values(SettingScope::attention, last->settings, settings) &&
+        (!attend || same_values(SettingScope::tracking, last->settings, settings))) {
       copy_attention(last->result.attention, out.result.attention);
       out.outlines = last->outlines;
+      out.marks = last->marks;
       return;
     }
     const StageTimer timer(out.result.times, Stage::attention);
-    selector_->select(out.result.maps.master, frame.depth_mm, frame.intrinsics, out.result.attention);
+    if (attend)
+      attend(out);
+    else
+      selector_->select(out.result.maps.master, frame.depth_mm, frame.intrinsics, out.result.attention);
   } catch (const std::exception& error) {
     out.error = error.what();
     out.result.maps.master.create(frame.size());

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 
@@ -16,10 +17,15 @@ class ModelRunner {
   /// `pool` must outlive it.
   explicit ModelRunner(WorkerPool& pool) : pool_(pool) {}
 
+  /// Chooses the attention points of `out`, which has its frame, map and smoothed map.
+  using Attend = std::function<void(Computed& out)>;
+
   /// Computes out.result.frame and fills the rest of `out`; a failure is reported in out.error. `last`, if
   /// not null, is a result of the same frame by any runner: its maps, and its attention, are copied where the
-  /// settings have not changed, which gives the same as computing them. Throws WorkerPool::Interrupted.
-  void compute(const Settings& settings, RequestedOutputs outputs, const Computed* last, Computed& out);
+  /// settings have not changed, which gives the same as computing them. `attend`: chooses the points in place
+  /// of the selector; may be empty. Throws WorkerPool::Interrupted.
+  void compute(const Settings& settings, RequestedOutputs outputs, const Computed* last, Computed& out,
+               const Attend& attend = {});
 
  private:
   void prepare(const Settings& settings, cv::Size image);

@@ -31,12 +31,20 @@ struct OverlayShapes {
     Rgba rim;
     std::string text;
   };
+  struct Ring {
+    cv::Point2f centre;
+    float radius = 10, width = 1;
+    Rgba colour;
+  };
   std::vector<Line> lines;
   std::vector<Mark> marks;  ///< filled dark, the first fixation last
+  std::vector<Ring> rings;  ///< over the marks
 };
 
 /// The outlines, scan path and numbered fixations of a result that the style asks for, at their places in
-/// `view`; doubtful fixations (is_doubtful) are faint. `unit` is the size of a pixel of a screen of usual
+/// `view`; doubtful fixations (is_doubtful) are faint. Over time, numbers are ids and each object has its
+/// colour (object_colour()), faint while it may not be looked at again; in place of the scan path stands the
+/// trail of the gaze, whose object has a ring. `unit` is the size of a pixel of a screen of usual
 /// density.
 [[nodiscard]] OverlayShapes overlay_shapes(const Computed& computed, const OverlayStyle& style,
                                            const PictureView& view, double unit);

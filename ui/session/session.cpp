@@ -193,10 +193,11 @@ void Session::start(std::unique_ptr<FrameSource> source, const OpenRequest& requ
     replacing_ = false;
     controls_ = source->controls();
     auto processor = std::make_unique<InteractiveProcessor>(
-        compute_request_, generation_,
+        compute_request_, generation_, info.sequence,
         InteractiveProcessor::Hooks{
             [this] { playback_->taken(); },
-            [this](std::shared_ptr<ViewResult> result) { publish(std::move(result)); }});
+            [this](std::shared_ptr<ViewResult> result) { publish(std::move(result)); },
+            [this] { return playback_->last_jump(); }});
     processor_ = processor.get();
     pipeline_ =
         std::make_unique<Pipeline>(std::make_unique<PacedSource>(std::move(source), playback_, request.range),

@@ -2,12 +2,14 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "output/overlay.hpp"
 #include "pipeline/result.hpp"
 #include "settings/settings.hpp"
+#include "ui/session/sequence_marks.hpp"
 
 namespace saccade {
 
@@ -15,11 +17,12 @@ namespace saccade {
 struct Computed {
   Settings settings;   ///< of the computation; default levels are cut to those that the frame has room for
   bool draft = false;  ///< of coarser levels; see draft_of()
-  RequestedOutputs outputs;       ///< requested by-products
-  Result result;                  ///< with the frame
-  cv::Mat1f smooth;               ///< smooth_for_looking() of the map
-  std::vector<Outline> outlines;  ///< proto_outlines() of the fixations
-  std::string error;              ///< why there is no map; empty = there is one
+  RequestedOutputs outputs;            ///< requested by-products
+  Result result;                       ///< with the frame
+  cv::Mat1f smooth;                    ///< smooth_for_looking() of the map
+  std::vector<Outline> outlines;       ///< proto_outlines() of the fixations
+  std::optional<SequenceMarks> marks;  ///< of attention over time; none: the frame stands for itself
+  std::string error;                   ///< why there is no map; empty = there is one
 };
 
 /// What the viewer shows: one frame, and one or two computations of it. Immutable once published.

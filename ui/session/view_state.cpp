@@ -34,12 +34,18 @@ OverlayStyle shown_style(const ViewState& state) {
 
 MapStyle shown_map_style(const ViewState& state, const ViewResult& result) {
   MapStyle style = state.style.map;
+  if (!style.range && result.a.marks && !(state.comparing() && result.compared)) {
+    style.range = ValueRange{0, result.a.marks->range_high};
+    return style;
+  }
   if (!state.comparing() || !state.common_range || style.range || !result.compared ||
       result.a.settings.model != result.b.settings.model || !result.a.error.empty() ||
       !result.b.error.empty())
     return style;
-  const float high =
-      std::max(shown_range(result.a.smooth, style).high, shown_range(result.b.smooth, style).high);
+  const auto high_of = [&](const Computed& side) {
+    return side.marks ? side.marks->range_high : shown_range(side.smooth, style).high;
+  };
+  const float high = std::max(high_of(result.a), high_of(result.b));
   if (high > 0) style.range = ValueRange{0, high};
   return style;
 }

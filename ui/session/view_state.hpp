@@ -64,7 +64,8 @@ void remember_source(ViewState& state, const std::string& uri);
 [[nodiscard]] OverlayStyle shown_style(const ViewState& state);
 
 /// The style of both maps of a comparison: on one range where the state asks for it, none is locked, and both
-/// are of one model.
+/// are of one model. Over time the range is that of
+/// SequenceMarks, so that colours do not flicker from frame to frame.
 [[nodiscard]] MapStyle shown_map_style(const ViewState& state, const ViewResult& result);
 
 /// The next model or palette, from the last one back to the first; `step` 1 or -1.

@@ -51,8 +51,27 @@ TEST_F(FixationPanelTest, FitsIntoTheSideBarAndSaysWhenThereIsNothing) {
   EXPECT_TRUE(ImGuiFrames::box_of(ImGui::GetColorU32(tone_colour(Tone::quiet)), low, high));
 }
 
+TEST(ObjectText, SaysWhatIsKnown) {
+  Computed computed;
+  computed.result.attention.fixations.resize(2);
+  Fixation& fixation = computed.result.attention.fixations[1];
+  fixation.id = 7;
+  fixation.age_frames = 96;
+  fixation.world_mm = {10, -20, 1000};
+  computed.result.attention.sequence.emplace();
+  computed.marks.emplace();
+  computed.marks->marks = {{}, {{}, true, 2, 3.25}};
+  EXPECT_EQ(
+      object_text(computed, 1),
+      "Object 7, rank 2, looked at a moment ago\nknown for 3.2 s, seen in 96 frames\nlooked at 2 times\n"
+      "world 10, -20, 1000 mm");
+  computed.result.attention.sequence->gaze = 7;
+  EXPECT_THAT(object_text(computed, 1), ::testing::HasSubstr("looked at now"));
+}
+
 TEST(FixationText, HasALineForEach) {
   Fixation fixation;
+  fixation.id = 7;
   fixation.row = 3;
   fixation.col = 4;
   fixation.saliency = 0.5F;
@@ -60,8 +79,8 @@ TEST(FixationText, HasALineForEach) {
   fixation.position_mm = {1, -2, 1000};
   fixation.proto_object.extent_mm = {10, 30, 20};
   EXPECT_EQ(fixation_text({fixation}),
-            "rank\trow\tcol\tx_mm\ty_mm\tz_mm\tsize_mm\tsaliency\tconfidence\n"
-            "1\t3\t4\t1.0\t-2.0\t1000.0\t30.0\t0.5\t0.875\n");
+            "rank\tid\trow\tcol\tx_mm\ty_mm\tz_mm\tsize_mm\tsaliency\tconfidence\n"
+            "1\t7\t3\t4\t1.0\t-2.0\t1000.0\t30.0\t0.5\t0.875\n");
 }
 
 }  // namespace

@@ -24,6 +24,16 @@ TEST(FixationLock, FollowsTheNearestFromFrameToFrame) {
   EXPECT_EQ(lock.find({at(0, 0, 1000)}), -1);
 }
 
+TEST(FixationLock, OverTimeTheIdCounts) {
+  FixationLock lock;
+  Fixation first = at(0, 0, 1000), moved = at(900, 0, 1000), other = at(10, 0, 1000);
+  first.id = moved.id = 3;
+  other.id = 4;
+  lock.lock(first);
+  EXPECT_EQ(lock.find({other, moved}), 1);
+  EXPECT_EQ(lock.find({other}), -1);
+}
+
 TEST(FixationLock, WithoutDepthThePixelsCount) {
   FixationLock lock;
   lock.lock(at(0, 0, 0, 100));

@@ -2,7 +2,10 @@
 // results as a single computation.
 #include "ui/session/model_runner.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -166,7 +169,7 @@ class InteractiveProcessorTest : public ::testing::Test {
 TEST_F(InteractiveProcessorTest, PublishesADraftAndThenTheExactMap) {
   const Settings slow = with_kernel(127);
   ASSERT_TRUE(draft_of(slow, {160, 120}));
-  InteractiveProcessor processor({slow, {}, {}}, 1, hooks());
+  InteractiveProcessor processor({slow, {}, {}}, 1, false, hooks());
   process(processor, 0);
   ASSERT_EQ(published_.size(), 2U);
   EXPECT_TRUE(published_[0]->draft && published_[0]->a.draft);
@@ -182,7 +185,7 @@ TEST_F(InteractiveProcessorTest, PublishesADraftAndThenTheExactMap) {
 
 TEST_F(InteractiveProcessorTest, WhatDidNotChangeIsNotComputedAgain) {
   Settings slow = with_kernel(127), fast = with_kernel(7);
-  InteractiveProcessor processor({fast, slow, {}}, 1, hooks());
+  InteractiveProcessor processor({fast, slow, {}}, 1, false, hooks());
   process(processor, 0);
   ASSERT_EQ(published_.size(), 2U);
   EXPECT_FALSE(published_[0]->a.draft);
@@ -198,7 +201,7 @@ TEST_F(InteractiveProcessorTest, WhatDidNotChangeIsNotComputedAgain) {
 }
 
 TEST_F(InteractiveProcessorTest, ANewRequestComesBeforeTheExactMapOfAnOldOne) {
-  InteractiveProcessor processor({with_kernel(127), {}, {}}, 1, hooks());
+  InteractiveProcessor processor({with_kernel(127), {}, {}}, 1, false, hooks());
   on_publish_ = [&] {
     if (published_.size() == 1) processor.set_compute_request({with_kernel(9), {}, {}}, 2);
   };
@@ -210,6 +213,133 @@ TEST_F(InteractiveProcessorTest, ANewRequestComesBeforeTheExactMapOfAnOldOne) {
   processor.set_compute_request({with_kernel(127), {}, {}}, 3);
   process(processor, 0);
   EXPECT_EQ(published_.size(), 3U) << "stopped after the draft";
+}
+
+// Frames of one sequence: a recording of three balls.
+class SequenceTest : public ::testing::Test {
+ protected:
+  static Settings settings(int kernel) {
+    Settings settings = with_kernel(kernel);
+    settings.min_confidence = 0;
+    return settings;
+  }
+
+  static Frame frame(std::int64_t index) {
+    Frame frame;
+    frame.index = index;
+    frame.timestamp_us = index * 33'333;
+    const cv::Size size(320, 240);
+    frame.intrinsics = Intrinsics::guess_for(size);
+    frame.depth_mm.create(size);
+    const std::array<cv::Point, 3> balls = {{{70, 60}, {160, 160}, {250, 80}}};
+    for (int r = 0; r < size.height; ++r)
+      for (int c = 0; c < size.width; ++c) {
+        float z = 1500 + static_cast<float>(r);
+        for (const cv::Point& ball : balls)
+          if (const double d = std::hypot(r - ball.y, c - ball.x); d < 30)
+            z = 1000 - static_cast<float>(4 * std::sqrt(900 - d * d));
+        frame.depth_mm(r, c) = z;
+      }
+    return frame;
+  }
+
+  // Computes a frame and returns side A of the newest result.
+  const Computed& see(InteractiveProcessor& processor, std::int64_t index) {
+    Result result;
+    result.frame = frame(index);
+    processor.process(result);
+    return newest_->a;
+  }
+
+  static std::vector<int> ids(const Computed& computed) {
+    std::vector<int> ids;
+    for (const Fixation& fixation : computed.result.attention.fixations) ids.push_back(fixation.id);
+    return ids;
+  }
+
+  InteractiveProcessor::Hooks hooks() {
+    return {[] {}, [this](std::shared_ptr<ViewResult> result) { newest_ = std::move(result); },
+            [this] { return jump_; }};
+  }
+
+  std::shared_ptr<ViewResult> newest_;
+  PlayJump jump_;
+};
+
+TEST_F(SequenceTest, ObjectsKeepTheirIdsAndHaveMarks) {
+  InteractiveProcessor processor({settings(9), {}, {}}, 1, true, hooks());
+  const std::vector<int> first = ids(see(processor, 0));
+  ASSERT_GE(first.size(), 3U);
+  EXPECT_EQ(first[0], 1);
+  for (int k = 1; k < 4; ++k) {
+    const Computed& now = see(processor, k);
+    EXPECT_EQ(ids(now), first);
+    ASSERT_TRUE(now.marks);
+    EXPECT_EQ(now.marks->marks.size(), now.result.attention.fixations.size());
+    EXPECT_EQ(now.result.attention.fixations[0].age_frames, k + 1);
+  }
+}
+
+TEST_F(SequenceTest, FramesThatAreNoSequenceStandForThemselves) {
+  for (const bool off : {false, true}) {
+    Settings alone = settings(9);
+    if (off) alone.tracking = Tracking::off;
+    InteractiveProcessor processor({alone, {}, {}}, 1, off, hooks());
+    EXPECT_FALSE(see(processor, 0).marks);
+    EXPECT_EQ(newest_->a.result.attention.fixations.at(0).id, 0);
+    EXPECT_FALSE(newest_->a.result.attention.sequence);
+  }
+}
+
+TEST_F(SequenceTest, TuningAFrameDoesNotAdvanceTheMemory) {
+  InteractiveProcessor plain({settings(9), {}, {}}, 1, true, hooks());
+  for (int k = 0; k < 3; ++k) see(plain, k);
+  const auto untouched = newest_;
+  see(plain, 3);
+  const auto next = newest_;
+
+  InteractiveProcessor tuned({settings(9), {}, {}}, 1, true, hooks());
+  for (int k = 0; k < 3; ++k) see(tuned, k);
+  for (int generation = 2; generation < 6; ++generation) {
+    tuned.set_compute_request({settings(generation % 2 == 0 ? 15 : 9), {}, {}}, generation);
+    see(tuned, 2);
+    EXPECT_EQ(newest_->generation, generation);
+    EXPECT_EQ(newest_->a.result.attention.fixations.at(0).age_frames, 3);
+    EXPECT_FALSE(newest_->a.result.attention.sequence->cut);
+  }
+  expect_same(newest_->a, untouched->a);
+  EXPECT_EQ(ids(newest_->a), ids(untouched->a));
+  see(tuned, 3);
+  expect_same(newest_->a, next->a);
+  EXPECT_EQ(ids(newest_->a), ids(next->a));
+  EXPECT_EQ(newest_->a.result.attention.sequence->gaze, next->a.result.attention.sequence->gaze);
+}
+
+TEST_F(SequenceTest, AJumpIsACutWhenItsFrameComes) {
+  InteractiveProcessor processor({settings(9), {}, {}}, 1, true, hooks());
+  see(processor, 0);
+  see(processor, 1);
+  jump_ = {1, 50};
+  EXPECT_FALSE(see(processor, 2).result.attention.sequence->cut) << "it was read before the jump";
+  EXPECT_TRUE(see(processor, 50).result.attention.sequence->cut);
+  EXPECT_FALSE(see(processor, 51).result.attention.sequence->cut);
+  EXPECT_TRUE(see(processor, 10).result.attention.sequence->cut) << "back";
+}
+
+TEST_F(SequenceTest, BothSidesOfAComparisonHaveTheSameIds) {
+  Settings three = settings(9), other = settings(15);
+  three.fixations = other.fixations = 3;  // the balls
+  InteractiveProcessor processor({three, {}, {}}, 1, true, hooks());
+  for (int k = 0; k < 3; ++k) see(processor, k);
+  processor.set_compute_request({three, other, {}}, 2);
+  for (int k = 3; k < 6; ++k) {
+    see(processor, k);
+    ASSERT_TRUE(newest_->compared && newest_->b.marks);
+    std::vector<int> a = ids(newest_->a), b = ids(newest_->b);
+    std::sort(a.begin(), a.end());
+    std::sort(b.begin(), b.end());
+    EXPECT_EQ(a, b);
+  }
 }
 
 }  // namespace

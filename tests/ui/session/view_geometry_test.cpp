@@ -182,6 +182,28 @@ TEST_F(ShapesTest, ADoubtfulFixationIsFaintWithItsOutline) {
   EXPECT_EQ(doubtful.marks.front().rim, sure.marks.front().rim);
 }
 
+TEST_F(ShapesTest, OverTimeObjectsHaveTheirNumbersAndTheGazeARing) {
+  Attention& attention = computed_.result.attention;
+  attention.sequence.emplace();
+  attention.sequence->gaze = 12;
+  attention.fixations[0].id = 7;
+  attention.fixations[1].id = 12;
+  computed_.marks.emplace();
+  computed_.marks->marks = {{{20.25, 10.5}, true, 1, 1}, {{40.5, 30.5}, false, 1, 1}};
+  computed_.marks->trail = {{20.25, 10.5}, {40.5, 30.5}};
+  OverlayStyle style;
+  style.outlines = false;
+  const OverlayShapes shapes = overlay_shapes(computed_, style, view_, 1);
+  EXPECT_EQ(shapes.marks.back().text, "7");
+  EXPECT_EQ(shapes.marks.front().text, "12");
+  EXPECT_EQ(shapes.marks.back().centre, cv::Point2f(40.5F, 21)) << "between pixels";
+  EXPECT_LT(shapes.marks.back().rim.a, shapes.marks.front().rim.a) << "it was looked at";
+  ASSERT_EQ(shapes.rings.size(), 1U);
+  EXPECT_EQ(shapes.rings.front().centre, shapes.marks.front().centre);
+  ASSERT_EQ(shapes.lines.size(), 1U) << "the trail";
+  EXPECT_EQ(shapes.lines.front().points.back(), shapes.rings.front().centre);
+}
+
 TEST_F(ShapesTest, AMarkIsFoundUnderTheMouse) {
   OverlayShapes shapes = overlay_shapes(computed_, {}, view_, 1);
   EXPECT_EQ(mark_under(shapes, {41, 21}), 0);

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstdint>
+
+#include "tracking/attention_tracker.hpp"
+#include "tracking/frame_follower.hpp"
+#include "ui/session/sequence_marks.hpp"
+#include "ui/session/view_result.hpp"
+
+namespace saccade {
+
+/// Attention over time of one side of the viewer, where a frame may be computed several times with settings
+/// that change: every computation of a frame begins with the memory as it was when the frame came, so that
+/// tuning a paused frame does not advance it. Thread safety: one call at a time per object.
+class SequenceMemory {
+ public:
+  SequenceMemory() : before_{AttentionTracker(1, 0, {})}, now_(before_) {}
+
+  /// A new frame comes: later computations begin with what the last one has left.
+  void next_frame();
+
+  /// Chooses the attention points of a frame that has its map, and sets their marks. `follower`: has followed
+  /// it. number: counts the frames that were followed, from 1; a memory that has missed one goes on from
+  /// that of the other side or, if that has missed it too, begins again.
+  void attend(const FrameFollower& follower, std::int64_t number, const SequenceMemory& other,
+              Computed& computed);
+
+ private:
+  struct State {
+    AttentionTracker tracker;
+    MarkHistory marks{};
+    Settings settings{};  // of its last map
+    std::int64_t number = 0;
+  };
+
+  bool follows(std::int64_t number) const { return before_.number + 1 == number; }
+
+  State before_, now_;
+  bool attended_ = false;  // since next_frame()
+};
+
+}  // namespace saccade
