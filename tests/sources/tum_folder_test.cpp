@@ -1,0 +1,87 @@
+// Folders as the TUM RGB-D benchmark has them: lists of times and files.
+#include <filesystem>
+#include <string>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "folder_source_fixture.hpp"
+
+namespace saccade {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+class TumFolderTest : public FolderSourceTest {};
+
+TEST_F(TumFolderTest, TumFolderIsPairedByTime) {
+  fs::create_directories(folder_ / "depth");
+  fs::create_directories(folder_ / "rgb");
+  put_depth("depth/a.png", 5000);
+  put_depth("depth/b.png", 2501);
+  put("rgb/a.png", cv::Mat3b(12, 16, cv::Vec3b(9, 9, 9)));
+  put_text("depth.txt", "# depth maps\n# timestamp filename\n100.50 depth/b.png\n100.25 depth/a.png\n");
+  put_text("rgb.txt", "# colour\n100.26 rgb/a.png\n100.60 rgb/a.png\n");
+  const auto source = open_source(folder_.string());
+  EXPECT_EQ(source->info().kind, "tum");
+  EXPECT_THAT(source->info().notes, ElementsAre("1 depth frame without a colour image within 20 ms"));
+  Frame frame;
+  ASSERT_EQ(source->read(frame, kNoWait).status, ReadStatus::frame);
+  EXPECT_EQ(frame.depth_mm(0, 0), 1000.0F);
+  EXPECT_EQ(frame.colour(0, 0)[0], 9);
+  ASSERT_EQ(source->read(frame, kNoWait).status, ReadStatus::frame);
+  EXPECT_EQ(frame.timestamp_us, 250000);
+  EXPECT_FLOAT_EQ(frame.depth_mm(0, 0), 500.2F);
+  EXPECT_TRUE(frame.colour.empty());
+}
+
+// Of images as near in time as each other, the one before; of images of one time, the first of the list.
+TEST_F(TumFolderTest, TiesInATumFolderHaveOneOutcome) {
+  put_depth("a.png", 5000);
+  for (const int k : {1, 2, 3, 4})
+    put(fmt::format("{}.png", k), cv::Mat3b(12, 16, cv::Vec3b::all(static_cast<std::uint8_t>(k))));
+  put_text("depth.txt", "10.5 a.png\n20.5 a.png\n");
+  put_text("rgb.txt", "10.4921875 1.png\n10.5078125 2.png\n20.4921875 3.png\n20.4921875 4.png\n");
+  const auto source = open_source(folder_.string());
+  Frame frame;
+  for (const int k : {1, 3}) {
+    ASSERT_EQ(source->read(frame, kNoWait).status, ReadStatus::frame);
+    EXPECT_EQ(frame.colour(0, 0)[0], k);
+  }
+}
+
+TEST_F(TumFolderTest, BrokenTumListNamesTheLine) {
+  put_text("depth.txt", "1.0 a.png\nnonsense b.png\n");
+  EXPECT_THAT(error(), HasSubstr("depth.txt:2"));
+  put_text("depth.txt", "# nothing\n");
+  EXPECT_THAT(error(), HasSubstr("no frames in the list"));
+}
+
+TEST_F(TumFolderTest, TumListsCannotLeadOutOfTheFolder) {
+  for (const char* name : {"/etc/hostname", "../a.png", "depth/../../a.png"}) {
+    put_text("depth.txt", std::string("1.0 ") + name + "\n");
+    EXPECT_THAT(error(), HasSubstr("a file outside of the folder")) << name;
+  }
+}
+
+TEST_F(TumFolderTest, LongTumListsArePairedInALittleTime) {
+  std::string depth, colour;
+  for (int k = 0; k < 100'000; ++k) {
+    depth += fmt::format("{}.5 {}.png\n", k, k);
+    colour += fmt::format("{}.51 c{}.png\n{}.49 c{}.png\n", k, k, k, k);
+  }
+  put_text("depth.txt", depth);
+  put_text("rgb.txt", colour);
+  put_depth("0.png", 5000);
+  const double begin = processor_seconds();
+  const auto source = open_source(folder_.string());
+  EXPECT_LT(processor_seconds() - begin, 20) << "comparing each with each takes 40";
+  EXPECT_THAT(source->info().notes, IsEmpty());
+}
+
+}  // namespace
+}  // namespace saccade
