@@ -53,11 +53,12 @@ void Evaluation::read(std::int64_t index, Batch& batch) {
   source_.seek(index);
   const ReadResult read = source_.read(frame, std::chrono::seconds(1));
   if (plan_.settings.intrinsics) frame.intrinsics = *plan_.settings.intrinsics;
-  if (read.status == ReadStatus::frame) {
+  const bool labels_are_lost = frame.truth.labels.empty() && !read.reason.empty();
+  if (read.status == ReadStatus::frame && !labels_are_lost) {
     batch.readable.push_back(batch.images.size() - 1);
     return;
   }
-  result.name = read.status == ReadStatus::rejected ? frame.name : "";
+  result.name = read.status == ReadStatus::end ? "" : frame.name;
   result.left_out = read.reason.empty() ? "the data set ends before it" : read.reason;
 }
 

@@ -8,6 +8,7 @@
 
 #include "app/bench_command.hpp"
 #include "app/eval_command.hpp"
+#include "app/export_command.hpp"
 #include "app/record_command.hpp"
 #include "app/run_command.hpp"
 #include "app/view_command.hpp"
@@ -25,6 +26,7 @@ struct Commands {
     add_view_command(app, action);
     add_run_command(app, action, {});
     add_record_command(app, action);
+    add_export_command(app, action);
     add_eval_command(app, action);
     add_bench_command(app, action);
   }

@@ -15,6 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 using ::testing::AllOf;
+using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -43,6 +44,14 @@ class OtherMakersTest : public ProgramTest {
     ::setenv("SACCADE_VIRTUAL_DEVICE", ("synthetic:table?size=160x120&frames=5" + faults).c_str(), 1);
   }
 
+  // "PROBLEM -> REMEDY" of each. That the folder here lacks a module of ours is the first of them.
+  static std::vector<std::string> problems(const json& report) {
+    std::vector<std::string> texts;
+    for (const json& each : report["problems"])
+      texts.push_back(each["problem"].get<std::string>() + " -> " + each["remedy"].get<std::string>());
+    return texts;
+  }
+
   json doctor() const { return json::parse(run_saccade({"doctor", "--json", "--sysfs", in("sys")}).out); }
 };
 
@@ -50,7 +59,7 @@ TEST_F(OtherMakersTest, DevicesAndDoctorShowTheModule) {
   const json devices = json::parse(run_saccade({"devices", "--json"}).out)["devices"];
   ASSERT_EQ(devices.size(), 1U);
   EXPECT_EQ(devices[0]["serial"], "VIRTUAL-1");
-  EXPECT_THAT(devices[0]["depth_modes"], ::testing::Contains("160x120@30"));
+  EXPECT_THAT(devices[0]["depth_modes"], Contains("160x120@30"));
   for (const json& module : doctor()["openni2"]["modules"]) {
     EXPECT_EQ(module["problem"], "");
     EXPECT_EQ(module["named"], module["name"] == "acme") << module;
@@ -78,9 +87,9 @@ TEST_F(OtherMakersTest, ItsSensorIsChosenBySerialNumberAndSurvivesALoss) {
 TEST_F(OtherMakersTest, DoctorSaysWhyAModuleDoesNotLoad) {
   write_file(in("acme/libbroken.so"), "a text");
   const json report = doctor();
-  EXPECT_EQ(report["problems"].size(), 1U + 1U) << report;  // and no USB device
-  EXPECT_THAT(report["problems"][0]["problem"].get<std::string>(),
-              AllOf(HasSubstr("the driver module broken"), HasSubstr("it is not a shared library of Linux")));
+  EXPECT_THAT(problems(report), Contains(AllOf(HasSubstr("the driver module broken"),
+                                               HasSubstr("it is not a shared library of Linux"))));
+  EXPECT_THAT(problems(report), Not(Contains(HasSubstr("the driver module acme"))));
   EXPECT_EQ(json::parse(run_saccade({"devices", "--json"}).out)["devices"].size(), 1U) << "the other works";
 }
 
@@ -90,7 +99,7 @@ TEST_F(OtherMakersTest, DoctorSeesThatOpenNiIniRedirectsTheRepository) {
              "[Device]\n;Override=\"\"\n[Drivers]\nRepository=/opt/acme/drivers\n");
   const json report = doctor();
   EXPECT_EQ(report["openni2"]["driver_folder"], "/opt/acme/drivers");
-  EXPECT_THAT(report["problems"][0]["problem"].get<std::string>(),
+  EXPECT_THAT(problems(report)[0],
               AllOf(HasSubstr("etc/openni2/OpenNI.ini makes OpenNI2 take"), HasSubstr("/opt/acme/drivers")));
   write_file(in("etc/openni2/OpenNI.ini"), "[Drivers]\n;Repository=/opt/acme/drivers\n");
   EXPECT_EQ(doctor()["openni2"]["redirected_by"], "");
@@ -101,13 +110,15 @@ TEST_F(OtherMakersTest, AdviceForSensorsWithoutAModuleHere) {
     fs::create_directories(folder_ / "sys/bus/usb/devices/1-1");
     write_file(in("sys/bus/usb/devices/1-1/idVendor"), vendor);
     write_file(in("sys/bus/usb/devices/1-1/idProduct"), product);
-    const json problem = doctor()["problems"][0];
-    return problem["problem"].get<std::string>() + " -> " + problem["remedy"].get<std::string>();
+    return problems(doctor());
   };
-  EXPECT_THAT(advice("8086", "0b07"), AllOf(HasSubstr("RealSense D435 "), HasSubstr("wrappers/openni2")));
-  EXPECT_THAT(advice("045e", "097c"), AllOf(HasSubstr("Azure"), HasSubstr("no OpenNI2 module for it")));
-  EXPECT_THAT(advice("2bc5", "0401"), AllOf(HasSubstr("Orbbec Astra "), HasSubstr("liborbbec.so")));
-  EXPECT_THAT(advice("2bc5", "0670"), AllOf(HasSubstr("Orbbec sensor"), HasSubstr("Orbbec's own SDK")));
+  EXPECT_THAT(advice("8086", "0b07"),
+              Contains(AllOf(HasSubstr("RealSense D435 "), HasSubstr("wrappers/openni2"))));
+  EXPECT_THAT(advice("045e", "097c"),
+              Contains(AllOf(HasSubstr("Azure"), HasSubstr("no OpenNI2 module for it"))));
+  EXPECT_THAT(advice("2bc5", "0401"), Contains(AllOf(HasSubstr("Orbbec Astra "), HasSubstr("liborbbec.so"))));
+  EXPECT_THAT(advice("2bc5", "0670"),
+              Contains(AllOf(HasSubstr("Orbbec sensor"), HasSubstr("Orbbec's own SDK"))));
 }
 
 }  // namespace

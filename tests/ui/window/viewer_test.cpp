@@ -184,13 +184,15 @@ TEST_F(ViewerTest, RecordsAndTakesSnapshots) {
   std::set<std::string> kinds;
   for (const auto& entry : std::filesystem::directory_iterator(snapshot)) {
     const std::string name = entry.path().filename();
-    kinds.insert(name == "settings.toml" ? name : name.substr(name.find('_')));
+    const auto ending = name.find('_');
+    kinds.insert(ending == std::string::npos ? name : name.substr(ending));
     if (name.ends_with("overlay.png")) {
       EXPECT_EQ(decode_png(read_file(entry.path())).size(), cv::Size(640, 480));
     }
   }
   EXPECT_EQ(kinds, (std::set<std::string>{"_cloud.ply", "_depth.png", "_fixations.json", "_overlay.png",
-                                          "_rgb.png", "_saliency.png", "_saliency.tiff", "settings.toml"}));
+                                          "_rgb.png", "_saliency.png", "_saliency.tiff", "meta.json",
+                                          "settings.toml", "times.txt"}));
   EXPECT_TRUE(now()["errors"].empty());
 }
 
