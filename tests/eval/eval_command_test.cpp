@@ -156,7 +156,7 @@ TEST_F(EvalTest, FramesWhoseLabelsDoNotFitAreNamedAndLeftOut) {
   put("0001_label.png", labels(cv::Rect(0, 0, 80, 60)));
   const ProgramResult outcome = eval("out", {}, in("data"));
   EXPECT_EQ(outcome.status, 0) << outcome.err;
-  EXPECT_THAT(outcome.err, HasSubstr("frame 1 (0001) left out: 0001_label.png: 80x60"));
+  EXPECT_THAT(outcome.err, HasSubstr("frame 1 (0001) left out: no labels: 0001_label.png: 80x60"));
   EXPECT_THAT(outcome.err, HasSubstr("frame 2 (0002) left out: it has no label image"));
   const json all = report("out");
   EXPECT_EQ(all["images"], 1);

@@ -37,11 +37,10 @@ constexpr std::array<Row, 9> kSeen = {{
     {"Outlines", "Proto-objects: the surface that the selector takes as one object around a fixation."},
     {"saliency",
      "Everywhere the value of the map at a pixel as it was computed, as in the files. The legend and the "
-     "colours are "
-     "of the smoothed map, whose peaks are lower; where a number is of the smoothed map, it says so."},
+     "colours are of the smoothed map, whose peaks are lower; where a number is of the smoothed map, it says "
+     "so."},
     {"Bars of the time line",
-     "The saliency of the strongest fixation of each computed frame; grey where the settings have changed "
-     "since."},
+     "The largest saliency of each computed frame; grey where the settings have changed since."},
     {"Draft", "A quick result from coarser levels, while the exact one is computed."},
     {"A and B", "Two settings on the same frame; Tuning edits the chosen one."},
 }};

@@ -26,7 +26,7 @@ struct Line {
   }
 };
 
-// A bar for each computed frame: the saliency of its strongest fixation.
+// A bar for each computed frame: its largest saliency.
 void draw_strengths(const ViewContext& view, const Line& line) {
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const float largest = view.timeline.largest();
@@ -125,7 +125,7 @@ void explain_frame_under_mouse(const ViewContext& view, const Line& line) {
   const auto place = static_cast<std::size_t>(under);
   const bool seen = place < entries.size() && entries[place].seen;
   const std::string saliency =
-      seen ? fmt::format("saliency of its strongest fixation {:.2f}", entries[place].strength)
+      seen ? fmt::format("largest saliency {:.2f}", entries[place].strength)
            : "not computed yet";
   const std::string text = fmt::format(
       "frame {}, {}\n\nDrag: move through the recording. Wheel: zoom, with Shift move.\n"

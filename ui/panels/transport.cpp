@@ -85,7 +85,7 @@ void draw_contents(ViewContext& view) {
   if (view.source.source.live) return;
   const auto seen = static_cast<std::int64_t>(view.timeline.entries().size());
   const std::int64_t frames = view.source.source.frame_count.value_or(seen);
-  const char* caption = "saliency of the strongest fixation";
+  const char* caption = "largest saliency";
   const float width = ImGui::CalcTextSize(caption).x;
   ImGui::SameLine();
   if (ImGui::GetContentRegionAvail().x > width + view.px(10)) {

@@ -4,6 +4,8 @@
 #include <exception>
 #include <utility>
 
+#include <opencv2/core.hpp>
+
 #include "core/error.hpp"
 #include "pipeline/paced_source.hpp"
 
@@ -254,8 +256,9 @@ void Session::publish(std::shared_ptr<ViewResult> result) {
   FrameRecord record;
   record.index = result->frame().index;
   record.generation = result->generation;
-  for (const Fixation& fixation : result->a.result.attention.fixations)
-    record.strength = std::max(record.strength, fixation.saliency);
+  double largest = 0;
+  cv::minMaxLoc(result->a.result.maps.master, nullptr, &largest);
+  record.strength = static_cast<float>(largest);
   record.times = result->a.result.times;
   record.at = Clock::now();
   record.latency_ms =

@@ -52,7 +52,7 @@ struct SessionState {
 struct FrameRecord {
   std::int64_t index = 0;
   std::int64_t generation = 0;
-  float strength = 0;  ///< largest saliency of its fixations; 0 = there is none
+  float strength = 0;  ///< largest saliency of its map
   StageTimes times;
   double latency_ms = 0;
   std::chrono::steady_clock::time_point at;

@@ -5,7 +5,7 @@
 
 namespace saccade {
 
-/// The saliency of the strongest fixation of every computed frame of a recording.
+/// The largest saliency of every computed frame of a recording.
 class Timeline {
  public:
   struct Entry {

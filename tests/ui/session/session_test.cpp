@@ -247,7 +247,7 @@ TEST_F(SessionTest, ASensorIsClosedBeforeItIsOpenedAgainAndComesBackAfterAFailur
   EXPECT_TRUE(wait_for([&] { return session.latest() != nullptr; })) << "it is open again";
 }
 
-TEST_F(SessionTest, TheStrengthOfAFrameIsThatOfItsStrongestFixation) {
+TEST_F(SessionTest, TheStrengthOfAFrameIsTheLargestSaliencyOfItsMap) {
   const auto session = make();
   session->playback().pause();
   session->open({.uri = "ball"});
@@ -256,11 +256,10 @@ TEST_F(SessionTest, TheStrengthOfAFrameIsThatOfItsStrongestFixation) {
     update = session->poll();
     return !update.records.empty();
   }));
-  float strongest = 0;
-  for (const Fixation& fixation : update.latest->a.result.attention.fixations)
-    strongest = std::max(strongest, fixation.saliency);
-  EXPECT_GT(strongest, 0);
-  EXPECT_EQ(update.records[0].strength, strongest);
+  const cv::Mat1f& map = update.latest->a.result.maps.master;
+  const float largest = *std::max_element(map.begin(), map.end());
+  EXPECT_GT(largest, 0);
+  EXPECT_EQ(update.records[0].strength, largest);
 }
 
 TEST_F(SessionTest, SeeksExactly) {
