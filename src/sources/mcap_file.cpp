@@ -5,14 +5,11 @@
 #include <map>
 #include <stdexcept>
 
-#include <fmt/format.h>
 #include <libdeflate.h>
 
 #include "core/error.hpp"
 #include "oni/bytes.hpp"
-#include "oni/input_file.hpp"
-#include "sources/bag_file.hpp"
-#include "sources/chunk_cache.hpp"
+#include "sources/chunked_bag.hpp"
 #include "sources/decompress.hpp"
 
 namespace saccade {
@@ -46,41 +43,16 @@ std::string plain_type(std::string type) {
   return type;
 }
 
-class McapFile final : public BagFile {
+class McapFile final : public ChunkedBag {
  public:
-  explicit McapFile(const std::filesystem::path& path) : file_(path) {
+  explicit McapFile(const std::filesystem::path& path) : ChunkedBag(path, kMagic.size()) {
     std::array<std::uint8_t, kMagic.size()> magic{};
     if (file_.read(0, magic) != magic.size() || magic != kMagic)
       throw unreadable("not an MCAP file", file_.name(), "is it the right file?");
   }
 
-  void scan(const Visit& visit) override {
-    std::uint64_t position = kMagic.size();
-    try {
-      while (scan_record(position, visit)) {
-      }
-    } catch (const std::runtime_error& error) {
-      problems_.push_back(fmt::format("at byte {}: {}", position, error.what()));
-    }
-  }
-
-  const std::vector<BagTopic>& topics() const override { return topics_; }
-  const std::vector<std::string>& problems() const override { return problems_; }
-
-  Bytes read(const BagPlace& place) override {
-    if (place.part == 0) {
-      message_.resize(place.size);
-      if (file_.read(place.offset, message_) != place.size) throw std::runtime_error("the file is cut");
-      return message_;
-    }
-    const Bytes chunk = chunk_at(place.part);
-    if (place.offset + place.size > chunk.size()) throw std::runtime_error("the chunk is too short");
-    return chunk.subspan(place.offset, place.size);
-  }
-
  private:
-  // Reads the record at `position` and moves on; false at the end of the data.
-  bool scan_record(std::uint64_t& position, const Visit& visit) {
+  bool scan_record(std::uint64_t& position, const Visit& visit) override {
     std::array<std::uint8_t, kRecordHeader> header{};
     if (file_.read(position, header) != header.size())
       throw std::runtime_error("the file is truncated, or was not closed");
@@ -91,13 +63,10 @@ class McapFile final : public BagFile {
     if (size > file_.size() - content) throw std::runtime_error("the file is truncated, or was not closed");
     if (type == kSchema || type == kChannel) {
       if (size > kLargestSmallRecord) throw std::runtime_error("a record is too large");
-      message_.resize(size);
-      if (file_.read(content, message_) != size) throw std::runtime_error("the file cannot be read");
+      fill(content, size, message_);
       take_definition(type, message_);
     } else if (type == kMessage && size >= kMessageFields) {
-      message_.resize(std::min<std::uint64_t>(size, kMessageFields + kBeginning));
-      if (file_.read(content, message_) != message_.size())
-        throw std::runtime_error("the file cannot be read");
+      fill(content, std::min<std::uint64_t>(size, kMessageFields + kBeginning), message_);
       give(message_, size, {0, content, 0}, visit);
     } else if (type == kChunk) {
       scan_chunk(content, visit);
@@ -106,17 +75,7 @@ class McapFile final : public BagFile {
     return true;
   }
 
-  // A damaged chunk costs its messages only.
-  void scan_chunk(std::uint64_t content, const Visit& visit) {
-    try {
-      scan_records(content, chunk_at(content), visit);
-    } catch (const std::runtime_error& error) {
-      problems_.push_back(
-          fmt::format("messages of the chunk at byte {} are lost: {}", content, error.what()));
-    }
-  }
-
-  void scan_records(std::uint64_t content, Bytes chunk, const Visit& visit) {
+  void scan_records(std::uint64_t content, Bytes chunk, const Visit& visit) override {
     std::size_t at = 0;
     while (chunk.size() - at >= kRecordHeader) {
       const std::uint8_t type = chunk[at];
@@ -130,11 +89,7 @@ class McapFile final : public BagFile {
     }
   }
 
-  Bytes chunk_at(std::uint64_t content) {
-    return chunks_.get(content, [this](std::uint64_t position, auto& bytes) { load_chunk(position, bytes); });
-  }
-
-  void load_chunk(std::uint64_t content, std::vector<std::uint8_t>& bytes) {
+  void load_chunk(std::uint64_t content, std::vector<std::uint8_t>& bytes) override {
     constexpr std::size_t kMostHeader = 64;
     constexpr std::uint64_t kMostCompressed = 512u << 20;
     std::array<std::uint8_t, kMostHeader> header{};
@@ -148,8 +103,7 @@ class McapFile final : public BagFile {
     const std::uint64_t begin = content + kMostHeader - cursor.rest().size();
     if (compressed > kMostCompressed || begin > file_.size() || compressed > file_.size() - begin)
       throw std::runtime_error("it is longer than the file");
-    compressed_.resize(compressed);
-    if (file_.read(begin, compressed_) != compressed) throw std::runtime_error("the file cannot be read");
+    fill(begin, compressed, compressed_);
     decompress(method, compressed_, size, bytes);
     if (checksum != 0 && libdeflate_crc32(0, bytes.data(), bytes.size()) != checksum)
       throw std::runtime_error("its checksum does not fit");
@@ -182,13 +136,9 @@ class McapFile final : public BagFile {
     visit(channel->second, load_le<std::int64_t>(&record[6]), record.subspan(kMessageFields), place);
   }
 
-  InputFile file_;
   std::map<std::uint16_t, std::string> schemas_;
   std::map<std::uint16_t, std::size_t> channels_;  // number in topics_
-  std::vector<BagTopic> topics_;
-  std::vector<std::string> problems_;
-  ChunkCache chunks_;
-  std::vector<std::uint8_t> compressed_, message_;
+  std::vector<std::uint8_t> compressed_;
 };
 
 }  // namespace

@@ -14,6 +14,7 @@
 
 #include "core/image_size.hpp"
 #include "sources/cloud_camera.hpp"
+#include "sources/cloud_values.hpp"
 #include "sources/lzf.hpp"
 
 namespace saccade {
@@ -41,17 +42,6 @@ struct Header {
 };
 
 std::runtime_error broken(const std::string& why) { return std::runtime_error("not a sound PCD: " + why); }
-
-std::vector<string_view> words_of(string_view line) {
-  std::vector<string_view> words;
-  constexpr string_view kBlank = " \t\r";
-  for (std::size_t begin = 0; (begin = line.find_first_not_of(kBlank, begin)) != string_view::npos;) {
-    const std::size_t end = std::min(line.find_first_of(kBlank, begin), line.size());
-    words.push_back(line.substr(begin, end - begin));
-    begin = end;
-  }
-  return words;
-}
 
 std::size_t parse_integer(string_view word, std::size_t most, const char* what) {
   std::size_t value = 0;
@@ -146,17 +136,6 @@ Header read_header(Bytes pcd) {
   return header;
 }
 
-double number_at(Bytes bytes, std::size_t offset, std::size_t size) {
-  if (size == 8) {
-    double value = 0;
-    std::memcpy(&value, bytes.data() + offset, 8);
-    return value;
-  }
-  float value = 0;
-  std::memcpy(&value, bytes.data() + offset, 4);
-  return static_cast<double>(value);
-}
-
 using Points = std::vector<cv::Point3d>;
 
 // The data have the fields of one point side by side, or (by_field) all values of one field side by side.
@@ -168,7 +147,7 @@ Points read_binary(const Header& header, Bytes data, bool by_field) {
       const Field& field = header.fields[header.xyz[axis]];
       const std::size_t offset =
           by_field ? field.offset * header.points + i * field.size : i * header.point_bytes + field.offset;
-      return number_at(data, offset, field.size);
+      return float_at(data.data() + offset, field.size);
     };
     points[i] = {value(0), value(1), value(2)};
   }

@@ -3,7 +3,6 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <cstring>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -14,6 +13,7 @@
 #include <fmt/format.h>
 
 #include "core/image_size.hpp"
+#include "sources/cloud_values.hpp"
 
 namespace saccade {
 namespace {
@@ -34,17 +34,6 @@ struct Header {
   std::array<Coordinate, 3> xyz;
   bool binary = false, in_vertex = false, has_vertex = false;
 };
-
-std::vector<string_view> words_of(string_view line) {
-  std::vector<string_view> words;
-  constexpr string_view kBlank = " \t\r";
-  for (std::size_t begin = 0; (begin = line.find_first_not_of(kBlank, begin)) != string_view::npos;) {
-    const std::size_t end = std::min(line.find_first_of(kBlank, begin), line.size());
-    words.push_back(line.substr(begin, end - begin));
-    begin = end;
-  }
-  return words;
-}
 
 template <typename Number>
 Number parse(string_view word) {
@@ -143,15 +132,8 @@ Header read_header(Bytes ply) {
   return header;
 }
 
-double number_at(const std::uint8_t* vertex, const Coordinate& coordinate) {
-  if (coordinate.size == 8) {
-    double value = 0;
-    std::memcpy(&value, vertex + coordinate.offset, 8);
-    return value;
-  }
-  float value = 0;
-  std::memcpy(&value, vertex + coordinate.offset, 4);
-  return static_cast<double>(value);
+double value(const std::uint8_t* vertex, const Coordinate& coordinate) {
+  return float_at(vertex + coordinate.offset, coordinate.size);
 }
 
 }  // namespace
@@ -167,8 +149,8 @@ OrganisedCloud read_ply(Bytes ply) {
   OrganisedCloud cloud{cv::Mat1f(header.size, 0.0F), camera};
   for (std::size_t i = 0; i < header.vertices; ++i) {
     const std::uint8_t* vertex = data.data() + i * header.vertex_bytes;
-    const double x = number_at(vertex, header.xyz[0]), y = number_at(vertex, header.xyz[1]),
-                 z = number_at(vertex, header.xyz[2]);
+    const double x = value(vertex, header.xyz[0]), y = value(vertex, header.xyz[1]),
+                 z = value(vertex, header.xyz[2]);
     if (!(z > 0) || !std::isfinite(z)) continue;
     const double col = std::round(x / z * camera.fx + camera.cx);
     const double row = std::round(y / z * camera.fy + camera.cy);

@@ -10,9 +10,7 @@
 
 #include "core/error.hpp"
 #include "oni/bytes.hpp"
-#include "oni/input_file.hpp"
-#include "sources/bag_file.hpp"
-#include "sources/chunk_cache.hpp"
+#include "sources/chunked_bag.hpp"
 #include "sources/decompress.hpp"
 
 namespace saccade {
@@ -60,35 +58,12 @@ class Fields {
   ByteCursor cursor_;
 };
 
-class Ros1BagFile final : public BagFile {
+class Ros1BagFile final : public ChunkedBag {
  public:
-  explicit Ros1BagFile(const std::filesystem::path& path) : file_(path) {
+  explicit Ros1BagFile(const std::filesystem::path& path) : ChunkedBag(path, kMagic.size()) {
     std::array<std::uint8_t, kMagic.size()> magic{};
     if (file_.read(0, magic) != magic.size() || !std::ranges::equal(magic, kMagic))
       throw unreadable("not a ROS bag of version 2.0", file_.name(), "is it the right file?");
-  }
-
-  void scan(const Visit& visit) override {
-    std::uint64_t position = kMagic.size();
-    try {
-      while (position < file_.size()) scan_record(position, visit);
-    } catch (const std::runtime_error& error) {
-      problems_.push_back(fmt::format("at byte {}: {}", position, error.what()));
-    }
-  }
-
-  const std::vector<BagTopic>& topics() const override { return topics_; }
-  const std::vector<std::string>& problems() const override { return problems_; }
-
-  Bytes read(const BagPlace& place) override {
-    if (place.part == 0) {
-      message_.resize(place.size);
-      if (file_.read(place.offset, message_) != place.size) throw std::runtime_error("the file is cut");
-      return message_;
-    }
-    const Bytes chunk = chunk_at(place.part);
-    if (place.offset + place.size > chunk.size()) throw std::runtime_error("the chunk is too short");
-    return chunk.subspan(place.offset, place.size);
   }
 
  private:
@@ -116,7 +91,8 @@ class Ros1BagFile final : public BagFile {
     return record;
   }
 
-  void scan_record(std::uint64_t& position, const Visit& visit) {
+  bool scan_record(std::uint64_t& position, const Visit& visit) override {
+    if (position >= file_.size()) return false;
     const Record record = record_at(position);
     const Fields fields(record.header);
     switch (fields.number<std::uint8_t>("op")) {
@@ -124,34 +100,21 @@ class Ros1BagFile final : public BagFile {
         scan_chunk(position, visit);
         break;
       case kConnection:
-        message_.resize(std::min(record.size, kLargestHeader));
-        if (file_.read(record.data, message_) != message_.size())
-          throw std::runtime_error("the file cannot be read");
+        fill(record.data, std::min(record.size, kLargestHeader), message_);
         take_connection(fields, message_);
         break;
       case kMessage:
-        message_.resize(std::min(record.size, kBeginning));
-        if (file_.read(record.data, message_) != message_.size())
-          throw std::runtime_error("the file cannot be read");
+        fill(record.data, std::min(record.size, kBeginning), message_);
         give(fields, message_, {0, record.data, record.size}, visit);
         break;
       default:
         break;  // the file's header and its indices
     }
     position = record.data + record.size;
+    return true;
   }
 
-  // A damaged chunk costs its messages only.
-  void scan_chunk(std::uint64_t position, const Visit& visit) {
-    try {
-      scan_records(position, chunk_at(position), visit);
-    } catch (const std::runtime_error& error) {
-      problems_.push_back(
-          fmt::format("messages of the chunk at byte {} are lost: {}", position, error.what()));
-    }
-  }
-
-  void scan_records(std::uint64_t position, Bytes chunk, const Visit& visit) {
+  void scan_records(std::uint64_t position, Bytes chunk, const Visit& visit) override {
     ByteCursor cursor(chunk);
     const auto take = [&] {
       const auto size = cursor.take<std::uint32_t>();
@@ -170,17 +133,11 @@ class Ros1BagFile final : public BagFile {
     }
   }
 
-  Bytes chunk_at(std::uint64_t position) {
-    return chunks_.get(position, [this](std::uint64_t at, auto& bytes) { load_chunk(at, bytes); });
-  }
-
-  void load_chunk(std::uint64_t position, std::vector<std::uint8_t>& bytes) {
+  void load_chunk(std::uint64_t position, std::vector<std::uint8_t>& bytes) override {
     const Record record = record_at(position);
     const Fields fields(record.header);
     if (record.size > kLargestData) throw std::runtime_error("it is too large");
-    compressed_.resize(record.size);
-    if (file_.read(record.data, compressed_) != record.size)
-      throw std::runtime_error("the file cannot be read");
+    fill(record.data, record.size, compressed_);
     decompress(fields.text("compression"), compressed_, fields.number<std::uint32_t>("size"), bytes);
   }
 
@@ -206,12 +163,8 @@ class Ros1BagFile final : public BagFile {
     visit(connection->second, time_ns, data, place);
   }
 
-  InputFile file_;
   std::map<std::uint32_t, std::size_t> connections_;  // number in topics_
-  std::vector<BagTopic> topics_;
-  std::vector<std::string> problems_;
-  ChunkCache chunks_;
-  std::vector<std::uint8_t> compressed_, message_;
+  std::vector<std::uint8_t> compressed_;
 };
 
 }  // namespace
