@@ -23,7 +23,7 @@ struct SettingOf {
   using Chosen = std::function<bool(const Part&)>;
 
   std::string_view key;    ///< option --key and TOML key
-  std::string_view value;  ///< placeholder of the value in the help, e.g. "K"; empty for a switch
+  std::string_view value;  ///< stands for the value in the help, e.g. "K"; empty for a switch
   std::string help;        ///< with unit and range
   /// Throws std::invalid_argument whose text says what is expected, e.g. "3..127".
   Parse parse;

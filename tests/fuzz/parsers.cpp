@@ -88,6 +88,24 @@ bool play(const std::string& uri) {
   });
 }
 
+// Bytes as a file of this name, by which its kind is recognised.
+bool play_file(const char* name, std::span<const std::uint8_t> bytes) {
+  static const Folder folder("file");
+  write_file(folder / name, bytes);
+  return play((folder / name).string());
+}
+
+// Decodes an image; a decoder may throw std::runtime_error with the reason, as its header says.
+template <typename Decode>
+bool decodes(const Decode& decode) {
+  try {
+    if (decode().empty()) throw std::logic_error("an empty image");
+    return true;
+  } catch (const std::runtime_error&) {
+    return false;
+  }
+}
+
 // Writers of test files want a path.
 template <typename Write>
 Bytes written(const char* name, const Write& write) {
@@ -106,16 +124,6 @@ std::vector<Bytes> pcd_seeds() {
   return seeds;
 }
 
-bool read_any_pcd(std::span<const std::uint8_t> bytes) {
-  try {
-    const OrganisedCloud cloud = read_pcd(bytes);
-    if (cloud.depth_mm.empty()) throw std::logic_error("an empty cloud");
-    return true;
-  } catch (const std::runtime_error&) {  // the reason, as its header says
-    return false;
-  }
-}
-
 std::vector<Bytes> mat_seeds() {
   return {written("seed.mat", [](const fs::path& path) {
     NyuWriter file(path);
@@ -129,12 +137,6 @@ std::vector<Bytes> mat_seeds() {
   })};
 }
 
-bool read_any_mat(std::span<const std::uint8_t> bytes) {
-  static const Folder folder("mat");
-  write_file(folder / "seed.mat", bytes);
-  return play((folder / "seed.mat").string());
-}
-
 std::vector<Bytes> png_seeds() {
   std::vector<Bytes> seeds = {encode_png(small_depth())};
   cv::Mat1b grey;
@@ -144,15 +146,6 @@ std::vector<Bytes> png_seeds() {
   cv::merge(std::vector<cv::Mat>{grey, grey, grey}, colour);
   seeds.push_back(encode_png(colour));
   return seeds;
-}
-
-bool read_any_png(std::span<const std::uint8_t> bytes) {
-  try {
-    if (decode_png(bytes).empty()) throw std::logic_error("an empty picture");
-    return true;
-  } catch (const std::runtime_error&) {  // the reason, as its header says
-    return false;
-  }
 }
 
 std::vector<Bytes> tum_seeds() {
@@ -271,12 +264,6 @@ std::vector<Bytes> mkv_seeds() {
   return seeds;
 }
 
-bool read_any_mkv(std::span<const std::uint8_t> bytes) {
-  static const Folder folder("mkv");
-  write_file(folder / "seed.mkv", bytes);
-  return play((folder / "seed.mkv").string());
-}
-
 // Depth of two frames, the colour of one, and the camera.
 std::vector<TestMessage> bag_messages(bool cdr) {
   const MessageWriter writer(cdr);
@@ -284,12 +271,6 @@ std::vector<TestMessage> bag_messages(bool cdr) {
           writer.image("/depth/image", 1'000, small_depth(), "16UC1"),
           writer.image("/rgb/image", 2'000, cv::Mat3b(12, 16, cv::Vec3b(1, 2, 3)), "rgb8"),
           writer.image("/depth/image", 33'000'000, small_depth(3), "16UC1")};
-}
-
-bool read_any_of(const char* name, std::span<const std::uint8_t> bytes) {
-  static const Folder folder("bag");
-  write_file(folder / name, bytes);
-  return play((folder / name).string());
 }
 
 std::vector<Bytes> bag_seeds() {
@@ -320,28 +301,20 @@ std::vector<Bytes> ply_seeds() {
   return {encode_ply(frame), encode_ply(frame, cv::Mat3f(12, 16, cv::Vec3f(0, 0, -1)))};
 }
 
-bool read_any_ply(std::span<const std::uint8_t> bytes) {
-  try {
-    if (read_ply(bytes).depth_mm.empty()) throw std::logic_error("an empty cloud");
-    return true;
-  } catch (const std::runtime_error&) {  // the reason, as its header says
-    return false;
-  }
-}
+using Input = std::span<const std::uint8_t>;
 
 constexpr std::array kParsers = {
-    FuzzedParser{"bag", bag_seeds,
-                 [](std::span<const std::uint8_t> b) { return read_any_of("seed.bag", b); }},
-    FuzzedParser{"db3", db3_seeds,
-                 [](std::span<const std::uint8_t> b) { return read_any_of("seed.db3", b); }},
-    FuzzedParser{"mat", mat_seeds, read_any_mat},
-    FuzzedParser{"mcap", mcap_seeds,
-                 [](std::span<const std::uint8_t> b) { return read_any_of("seed.mcap", b); }},
+    FuzzedParser{"bag", bag_seeds, [](Input bytes) { return play_file("seed.bag", bytes); }},
+    FuzzedParser{"db3", db3_seeds, [](Input bytes) { return play_file("seed.db3", bytes); }},
+    FuzzedParser{"mat", mat_seeds, [](Input bytes) { return play_file("seed.mat", bytes); }},
+    FuzzedParser{"mcap", mcap_seeds, [](Input bytes) { return play_file("seed.mcap", bytes); }},
     FuzzedParser{"meta", meta_seeds, read_any_meta},
-    FuzzedParser{"mkv", mkv_seeds, read_any_mkv},
-    FuzzedParser{"pcd", pcd_seeds, read_any_pcd},
-    FuzzedParser{"ply", ply_seeds, read_any_ply},
-    FuzzedParser{"png", png_seeds, read_any_png},
+    FuzzedParser{"mkv", mkv_seeds, [](Input bytes) { return play_file("seed.mkv", bytes); }},
+    FuzzedParser{"pcd", pcd_seeds,
+                 [](Input bytes) { return decodes([&] { return read_pcd(bytes).depth_mm; }); }},
+    FuzzedParser{"ply", ply_seeds,
+                 [](Input bytes) { return decodes([&] { return read_ply(bytes).depth_mm; }); }},
+    FuzzedParser{"png", png_seeds, [](Input bytes) { return decodes([&] { return decode_png(bytes); }); }},
     FuzzedParser{"poses", poses_seeds, read_any_poses},
     FuzzedParser{"results", results_seeds, read_any_results},
     FuzzedParser{"synthetic", uri_seeds, read_any_synthetic},
