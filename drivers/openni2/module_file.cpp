@@ -4,6 +4,7 @@
 #include <elf.h>
 #include <sys/utsname.h>
 
+#include <algorithm>
 #include <array>
 #include <cstring>
 #include <fstream>

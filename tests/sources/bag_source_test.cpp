@@ -13,6 +13,7 @@
 #include "sources/open_source.hpp"
 #include "tests/support/folder_test.hpp"
 #include "tests/support/no_wait.hpp"
+#include "tests/support/subprocess.hpp"
 
 namespace saccade {
 namespace {
@@ -108,6 +109,31 @@ TEST_F(BagSourceTest, EveryContainerAndCompressionGivesTheSameFrames) {
   fs::copy(folder_ / "a.db3", folder_ / "ros2/a_0.db3");
   write_file(folder_ / "ros2/metadata.yaml", std::string_view("rosbag2_bagfile_information:\n"));
   expect_recording(in("ros2"));
+}
+
+// A second opinion: bags by ROS 1's own library.
+TEST_F(BagSourceTest, BagsOfTheReferenceWriterAreRead) {
+  constexpr const char* kPython = "/usr/bin/python3";
+  if (run_program(kPython, {"-c", "import rosbag, sensor_msgs, numpy"}).status != 0)
+    GTEST_SKIP() << "python3-rosbag, python3-sensor-msgs or python3-numpy is not installed";
+  for (const char* compression : {"none", "bz2", "lz4"}) {
+    SCOPED_TRACE(compression);
+    const ProgramResult written =
+        run_program(kPython, {SACCADE_SOURCE_DIR "/tests/sources/write_bag.py", in("ros.bag"), compression});
+    ASSERT_EQ(written.status, 0) << written.err;
+    const auto source = open_source(in("ros.bag"));
+    EXPECT_EQ(source->info().frame_count, 3);
+    EXPECT_EQ(source->info().intrinsics.fy, 501.5);
+    EXPECT_EQ(source->info().intrinsics.cx, 8.25);
+    for (int k = 0; k < 3; ++k) {
+      Frame frame;
+      ASSERT_EQ(source->read(frame, kNoWait).status, ReadStatus::frame);
+      EXPECT_NEAR(static_cast<double>(frame.timestamp_us - 1'700'000'000'000'000), k * 1e6 / 30, 1);
+      for (int i = 0; i < 192; ++i)
+        ASSERT_EQ(frame.depth_mm(i / 16, i % 16), i == 0 ? 0.0F : static_cast<float>(1000 + 100 * k + i));
+      EXPECT_EQ(frame.colour(5, 5), cv::Vec3b(static_cast<std::uint8_t>(k), 20, 10));
+    }
+  }
 }
 
 TEST_F(BagSourceTest, OtherEncodingsAreRead) {
