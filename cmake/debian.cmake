@@ -1,4 +1,4 @@
-# cpack -G DEB: one package with the program, the driver modules and the C++ library.
+# cpack -G DEB: one package with the program, the driver modules, the C++ library and the Python module.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME saccade)
 set(CPACK_PACKAGE_VENDOR "The Saccade authors")
@@ -17,14 +17,19 @@ Kinect, an Xtion or a recording, in real time and without training: it
 computes how mirror-symmetric the surface around each pixel is.
 
 The package holds the program (viewer, headless processing, recording,
-evaluation), driver modules for OpenNI2 and libraries for programs of
-your own.")
+evaluation), driver modules for OpenNI2, and libraries for programs of
+your own in C++ and Python.")
 # dpkg-shlibdeps finds what is linked. The rest is what the window's libraries open while they run (OpenGL, X11), and the
 # font.
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 if(SACCADE_VIEWER)
   set(CPACK_DEBIAN_PACKAGE_DEPENDS "libgl1, libegl1, libx11-xcb1, libxcursor1, libxi6, libxinerama1, libxrandr2, \
 libxrender1, libxxf86vm1, fonts-dejavu-core")
+endif()
+if(SACCADE_PYTHON)
+  math(EXPR next_python "${Python_VERSION_MINOR} + 1")
+  set(CPACK_DEBIAN_PACKAGE_RECOMMENDS
+    "python3 (>= 3.${Python_VERSION_MINOR}), python3 (<< 3.${next_python}), python3-numpy")
 endif()
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS "libopencv-dev, libeigen3-dev, libfmt-dev, libhwy-dev, libturbojpeg0-dev, \
 libspng-dev, libdeflate-dev, libavformat-dev, libavcodec-dev, \

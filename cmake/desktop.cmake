@@ -21,6 +21,9 @@ install(FILES ${desktop}/copyright ${PROJECT_SOURCE_DIR}/src/app/CHANGELOG.md DE
 # The rooms' documents that help a user, each by the name of its room. They are written for the source tree: there
 # ./run is the program, and the bundled recording is in recordings/.
 set(rooms src src/app src/attention src/eval src/models src/oni src/output src/saliency src/sources src/tracking drivers ui)
+if(SACCADE_PYTHON)
+  list(APPEND rooms src/python)
+endif()
 foreach(room IN LISTS rooms)
   cmake_path(GET room FILENAME name)
   string(REGEX REPLACE "^src$" "library" name ${name})

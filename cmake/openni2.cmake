@@ -48,10 +48,10 @@ function(saccade_driver_module name)
   add_dependencies(saccade_driver_modules ${name})
 endfunction()
 
-# saccade_use_sensors(TARGET [INSTALLED]); INSTALLED: the program has been installed by install(TARGETS) into
-# CMAKE_INSTALL_BINDIR, and is built into PROJECT_BINARY_DIR.
+# saccade_use_sensors(TARGET [BUILT folder INSTALLED folder]); with INSTALLED: the target is built into the one folder, and
+# has been installed by install(TARGETS) into the other, which is relative to the prefix.
 function(saccade_use_sensors target)
-  cmake_parse_arguments(arg "INSTALLED" "" "" ${ARGN})
+  cmake_parse_arguments(arg "" "BUILT;INSTALLED" "" ${ARGN})
   target_link_libraries(${target} PRIVATE OpenNI2::OpenNI2)
   add_dependencies(${target} saccade_driver_modules)
   if(SACCADE_SANITIZE MATCHES address)
@@ -63,9 +63,10 @@ function(saccade_use_sensors target)
   endif()
   # A RUNPATH that CMake is to replace when it installs gets an empty last entry, and there the loader looks in the
   # working directory. So the build tree has that of both places, and it is cut when the program has been installed.
-  file(RELATIVE_PATH installed ${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_FULL_LIBDIR}/saccade/openni2)
+  file(RELATIVE_PATH built ${arg_BUILT} ${SACCADE_REDIST})
+  file(RELATIVE_PATH installed /prefix/${arg_INSTALLED} /prefix/${SACCADE_REDIST_INSTALLED})
   set_target_properties(${target} PROPERTIES
-    BUILD_WITH_INSTALL_RPATH ON INSTALL_RPATH "$ORIGIN/openni2;$ORIGIN/${installed}")
-  set(file "\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_BINDIR}/$<TARGET_FILE_NAME:${target}>")
+    BUILD_WITH_INSTALL_RPATH ON INSTALL_RPATH "$ORIGIN/${built};$ORIGIN/${installed}")
+  set(file "\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${arg_INSTALLED}/$<TARGET_FILE_NAME:${target}>")
   install(CODE "file(RPATH_SET FILE \"${file}\" NEW_RPATH \"$ORIGIN/${installed}\")")
 endfunction()

@@ -26,7 +26,7 @@ const Floors kHouse = {
     {"src/pipeline", "drivers/modules"},
     {"src/output"},
     {"src/settings"},
-    {"src/eval", "ui/session"},
+    {"src/eval", "src/python", "ui/session"},
     {"ui/panels", "ui/drawing"},
     {"ui/window"},
     {"src/app"},

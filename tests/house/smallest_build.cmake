@@ -1,4 +1,4 @@
-# The program without the viewer, sensors and HDF5: it configures without looking for their libraries, builds, works, and
+# The program without the viewer, sensors, HDF5 and the Python module: it configures without looking for their libraries, builds, works, and
 # says what it leaves out. Each part left out alone configures too.
 #
 # cmake -DSOURCE_FOLDER=.. -DBUILD_FOLDER=.. -DBUILD_TYPE=.. -DCOMPILER=.. -DLAUNCHER=.. -P smallest_build.cmake
@@ -23,17 +23,18 @@ function(expect status text)
   endif()
 endfunction()
 
-foreach(part VIEWER OPENNI2 FREENECT HDF5)
+foreach(part VIEWER OPENNI2 FREENECT HDF5 PYTHON)
   configure(${BUILD_FOLDER}/${part} -DSACCADE_${part}=OFF)
 endforeach()
 configure(${BUILD_FOLDER}/all
-  -DSACCADE_VIEWER=OFF -DSACCADE_OPENNI2=OFF -DSACCADE_FREENECT=OFF -DSACCADE_HDF5=OFF)
+  -DSACCADE_VIEWER=OFF -DSACCADE_OPENNI2=OFF -DSACCADE_FREENECT=OFF -DSACCADE_HDF5=OFF
+  -DSACCADE_PYTHON=OFF)
 
 file(STRINGS ${BUILD_FOLDER}/all/CMakeCache.txt entries REGEX "^[A-Za-z]")
 list(FILTER entries EXCLUDE REGEX "^SACCADE_")
 # By their names: values may list what only static linking needs.
 list(FILTER entries INCLUDE REGEX "^[^:]*([Gg][Ll][Ff][Ww]|[Ii][Mm][Gg][Uu][Ii]|[Ee][Pp][Oo][Xx][Yy]|OPENGL|X11|[Nn][Ii]2|\
-[Ff][Rr][Ee][Ee][Nn][Ee][Cc][Tt]|[Hh][Dd][Ff]5|GTest)[^:]*:")
+[Ff][Rr][Ee][Ee][Nn][Ee][Cc][Tt]|[Hh][Dd][Ff]5|GTest|[Pp][Yy][Bb][Ii][Nn][Dd]|Python|PYTHON)[^:]*:")
 if(entries)
   message(FATAL_ERROR "The smallest build looks for what it does not need:\n${entries}")
 endif()

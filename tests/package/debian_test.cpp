@@ -50,6 +50,7 @@ class DebianTest : public ProgramTest {
   void check_settings() const;
   void check_sensors() const;
   void check_viewer() const;
+  void check_python() const;
 
   std::string package_;
 };
@@ -68,6 +69,7 @@ TEST_F(DebianTest, ThePackageIsRightAndItsProgramWorks) {
   check_settings();
   check_sensors();
   check_viewer();
+  check_python();
 }
 
 void DebianTest::check_dependencies() const {
@@ -123,6 +125,21 @@ void DebianTest::check_viewer() const {
       "xvfb-run", {"-a", installed("bin/saccade"), "view", "--paused", "--screenshot", in("window.png")});
   EXPECT_EQ(view.status, 0) << view.err;
   EXPECT_GT(fs::file_size(in("window.png")), 10'000U);
+#endif
+}
+
+// The module is found where Debian's python3 looks, and finds the driver modules of the package.
+void DebianTest::check_python() const {
+#ifdef SACCADE_PYTHON
+  EXPECT_THAT(field("Recommends"), HasSubstr("python3-numpy"));
+  ::setenv("SACCADE_VIRTUAL_DEVICE", "synthetic:table?size=160x120", 1);
+  const ProgramResult python = run_program(
+      "env", {"PYTHONPATH=" + installed("lib/python3/dist-packages"), "PYTHONDONTWRITEBYTECODE=1",
+              SACCADE_PYTHON, "-c",
+              "import saccade\n"
+              "frame = next(saccade.open('" SACCADE_PYTHON_SOURCE "'))\n"
+              "print(saccade.__version__, len(saccade.Saliency(fixations=3).compute(frame).fixations))"});
+  EXPECT_EQ(python.out, std::string(kVersion) + " 3\n") << python.err;
 #endif
 }
 
