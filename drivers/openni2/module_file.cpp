@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstring>
 #include <fstream>
 #include <set>
 
@@ -49,7 +50,7 @@ std::optional<ModuleTrouble> trouble_with_format(const fs::path& file) {
   Elf64_Ehdr header{};  // e_machine has the same place in files of 32 bits
   stream.read(reinterpret_cast<char*>(&header), sizeof header);
   if (stream.gcount() < static_cast<std::streamsize>(sizeof(Elf32_Ehdr)) ||
-      !std::equal(ELFMAG, ELFMAG + SELFMAG, header.e_ident))
+      std::memcmp(header.e_ident, ELFMAG, SELFMAG) != 0)
     return ModuleTrouble{"it is not a shared library of Linux",
                          "name the maker's file lib*.so for Linux, not an archive or a text file"};
   const std::string its = architecture_of(header), ours = architecture_of_this_machine();

@@ -59,7 +59,7 @@ std::string full_name(const CLI::App& program, const CLI::App& command) {
   std::string name = command.get_name();
   for (const CLI::App* app = &command; app != &program && app->get_parent() != nullptr;) {
     app = app->get_parent();
-    name = app->get_name() + " " + name;
+    name.insert(0, app->get_name() + " ");
   }
   return name;
 }

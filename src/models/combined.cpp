@@ -1,7 +1,5 @@
 #include "models/combined.hpp"
 
-#include <algorithm>
-
 #include <opencv2/imgproc.hpp>
 
 #include "models/image.hpp"
@@ -14,8 +12,9 @@ namespace {
 constexpr int kReducedLevel = 2;  // 1/4 of the image
 
 void divide_by_maximum(cv::Mat1f& map) {
-  const float maximum = *std::max_element(map.begin(), map.end());
-  if (maximum > 0) map *= 1 / maximum;
+  double maximum = 0;
+  cv::minMaxLoc(map, nullptr, &maximum);
+  if (maximum > 0) map *= 1 / static_cast<float>(maximum);
 }
 
 }  // namespace
@@ -43,11 +42,18 @@ void CombinedModel::weigh_levels(const cv::Mat1f& depth_mm) {
         upsample_rows(sums_[static_cast<std::size_t>(l) + 1], 1, sum, false, begin, end);
       if (l < first_level_) return;
       const cv::Mat1f& score = maps3d_.levels[static_cast<std::size_t>(l - first_level_)];
-      for (int r = begin; r < end; ++r)
-        for (int c = 0; c < sum.cols; ++c) {
-          const float x = depth_mm(r << l, c << l) / limit_mm;
-          sum(r, c) += score(r, c) / (1 + x * x);
-        }
+      for (int r = begin; r < end; ++r) {
+        const float *depth = depth_mm[r << l], *of_level = score[r];
+        float* out = sum[r];
+        const auto add = [&](int c, float z) {
+          const float x = z / limit_mm;
+          out[c] += of_level[c] / (1 + x * x);
+        };
+        if (l == 0)  // apart, since the compiler vectorises it
+          for (int c = 0; c < sum.cols; ++c) add(c, depth[c]);
+        else
+          for (int c = 0; c < sum.cols; ++c) add(c, depth[c << l]);
+      }
     });
   }
 }

@@ -1,6 +1,8 @@
 #include "models/image.hpp"
 
 #include <algorithm>
+#include <stdexcept>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -16,27 +18,62 @@ const cv::Mat3b& colour_of(const Frame& frame, const char* model) {
   return frame.colour;
 }
 
+namespace {
+
+// Interpolates `coarse` at steps of 1/Factor into out[0..width); coarse[i] and the next value are `factor`
+// pixels apart. The inner loop has a fixed length, so that the compiler vectorises it.
+template <int Factor, bool Add>
+void expand(const std::vector<float>& coarse, float* out, int width) {
+  constexpr float kStep = 1.0F / Factor;
+  const auto write = [&](int begin, int count) {
+    const float left = coarse[static_cast<std::size_t>(begin / Factor)];
+    const float slope = (coarse[static_cast<std::size_t>(begin / Factor) + 1] - left) * kStep;
+    for (int i = 0; i < count; ++i) {
+      const float here = left + slope * static_cast<float>(i);
+      out[begin + i] = Add ? out[begin + i] + here : here;
+    }
+  };
+  int c = 0;
+  for (; c + Factor <= width; c += Factor) write(c, Factor);
+  if (c < width) write(c, width - c);
+}
+
+template <bool Add>
+void expand(const std::vector<float>& coarse, int levels, float* out, int width) {
+  switch (levels) {
+    case 0:
+      return expand<1, Add>(coarse, out, width);
+    case 1:
+      return expand<2, Add>(coarse, out, width);
+    case 2:
+      return expand<4, Add>(coarse, out, width);
+    case 3:
+      return expand<8, Add>(coarse, out, width);
+    case 4:
+      return expand<16, Add>(coarse, out, width);
+    default:
+      throw std::invalid_argument("upsample_rows: 0..4 levels expected");
+  }
+}
+
+}  // namespace
+
 void upsample_rows(const cv::Mat1f& coarse, int levels, cv::Mat1f& fine, bool add, int begin, int end) {
   const int factor = 1 << levels;
   const float step = 1.0F / static_cast<float>(factor);
+  const auto width = static_cast<std::size_t>(coarse.cols);
+  // A row between two of `coarse`. Columns beyond its last one repeat it.
+  std::vector<float> row(std::max(width, static_cast<std::size_t>(fine.cols / factor + 1)) + 1);
   for (int r = begin; r < end; ++r) {
     const float* upper = coarse[std::min(r / factor, coarse.rows - 1)];
     const float* lower = coarse[std::min(r / factor + 1, coarse.rows - 1)];
     const float down = static_cast<float>(r % factor) * step;
-    const auto value = [&](int i) {
-      i = std::min(i, coarse.cols - 1);
-      return upper[i] + (lower[i] - upper[i]) * down;
-    };
-    float* out = fine[r];
-    float left = value(0);
-    for (int c = 0; c < fine.cols; c += factor) {
-      const float right = value(c / factor + 1), slope = (right - left) * step;
-      for (int i = 0; i < std::min(factor, fine.cols - c); ++i) {
-        const float here = left + slope * static_cast<float>(i);
-        out[c + i] = add ? out[c + i] + here : here;
-      }
-      left = right;
-    }
+    for (std::size_t i = 0; i < width; ++i) row[i] = upper[i] + (lower[i] - upper[i]) * down;
+    std::fill(row.begin() + coarse.cols, row.end(), row[width - 1]);
+    if (add)
+      expand<true>(row, levels, fine[r], fine.cols);
+    else
+      expand<false>(row, levels, fine[r], fine.cols);
   }
 }
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+#include <cstdint>
 
 #include <opencv2/imgproc.hpp>
 
@@ -13,50 +13,20 @@
 namespace saccade {
 namespace {
 
-// A Gabor pair of one orientation, exp(i (kx x + ky y)) times a Gaussian, as products of functions of x and
-// of y: cos(a + b) = cos a cos b - sin a sin b, sin(a + b) = sin a cos b + cos a sin b.
-struct Gabor {
-  static constexpr int kReach = 7;  // 3 sigma
-  cv::Mat1f cos_x, sin_x, cos_y, sin_y, gauss;
-  double constant = 0;  // response of the even filter to an image of ones
-
-  explicit Gabor(double angle) : cos_x(1, 2 * kReach + 1) {
-    constexpr double kPeriod = 7, kSigma = kPeriod / 3;
-    for (cv::Mat1f* m : {&sin_x, &cos_y, &sin_y, &gauss}) m->create(cos_x.size());
-    double sum = 0;
-    for (int i = -kReach; i <= kReach; ++i) sum += std::exp(-i * i / (2 * kSigma * kSigma));
-    const double k = 2 * std::numbers::pi / kPeriod, kx = k * std::cos(angle), ky = k * std::sin(angle);
-    for (int i = -kReach; i <= kReach; ++i) {
-      const double g = std::exp(-i * i / (2 * kSigma * kSigma)) / sum;
-      gauss(i + kReach) = static_cast<float>(g);
-      cos_x(i + kReach) = static_cast<float>(g * std::cos(kx * i));
-      sin_x(i + kReach) = static_cast<float>(g * std::sin(kx * i));
-      cos_y(i + kReach) = static_cast<float>(g * std::cos(ky * i));
-      sin_y(i + kReach) = static_cast<float>(g * std::sin(ky * i));
-    }
-    constant = cv::sum(cos_x)[0] * cv::sum(cos_y)[0] - cv::sum(sin_x)[0] * cv::sum(sin_y)[0];
+// Red/green and blue/yellow of one row. `bgr`: the channels of the image.
+void split_row(const std::array<const std::uint8_t*, 3>& bgr, const float* intensity, float least, int width,
+               float* red_green, float* blue_yellow) {
+  const auto [blue_of, green_of, red_of] = bgr;
+  for (int c = 0; c < width; ++c) {
+    const float inverse = 1 / (255 * intensity[c]), scale = intensity[c] > least ? inverse : 0;
+    const float b = blue_of[c] * scale, g = green_of[c] * scale, r = red_of[c] * scale;
+    const float red = std::max(0.0F, r - (g + b) / 2), green = std::max(0.0F, g - (r + b) / 2);
+    const float blue = std::max(0.0F, b - (r + g) / 2);
+    const float yellow = std::max(0.0F, (r + g) / 2 - std::abs(r - g) / 2 - b);
+    red_green[c] = red - green;
+    blue_yellow[c] = blue - yellow;
   }
-
-  // The magnitude of the pair's response.
-  void filter(const cv::Mat1f& image, std::array<cv::Mat1f, 2>& parts, cv::Mat1f& energy) const {
-    auto& [sum, part] = parts;
-    const auto apply = [&](const cv::Mat1f& x, const cv::Mat1f& y, cv::Mat1f& out) {
-      cv::sepFilter2D(image, out, CV_32F, x, y);
-    };
-    apply(cos_x, cos_y, sum);
-    apply(sin_x, sin_y, part);
-    sum -= part;
-    apply(gauss, gauss, part);
-    cv::scaleAdd(part, -constant, sum, sum);
-    cv::multiply(sum, sum, energy);
-    apply(sin_x, cos_y, sum);
-    apply(cos_x, sin_y, part);
-    sum += part;
-    cv::multiply(sum, sum, sum);
-    energy += sum;
-    cv::sqrt(energy, energy);
-  }
-};
+}
 
 }  // namespace
 
@@ -81,28 +51,29 @@ void IttiModel::resize(cv::Size size) {
 // of its maximum, and are 0 elsewhere.
 void IttiModel::split_colours(const cv::Mat3b& colour) {
   cv::Mat1f& intensity = channels_[kIntensity].levels[0];
+  // With the channels in arrays of their own, the compiler vectorises the loops.
+  using Planes = std::array<cv::Mat1b, 3>;
   for_row_bands(pool_, size_.height, [&](int begin, int end) {
-    for (int r = begin; r < end; ++r)
-      for (int c = 0; c < size_.width; ++c) {
-        const cv::Vec3b& p = colour(r, c);
-        intensity(r, c) = static_cast<float>(p[0] + p[1] + p[2]) / (3 * 255);
-      }
+    Planes bgr;
+    cv::split(colour.rowRange(begin, end), bgr.data());
+    for (int r = begin; r < end; ++r) {
+      const std::uint8_t *blue = bgr[0][r - begin], *green = bgr[1][r - begin], *red = bgr[2][r - begin];
+      float* out = intensity[r];
+      for (int c = 0; c < size_.width; ++c)
+        out[c] = static_cast<float>(blue[c] + green[c] + red[c]) / (3 * 255);
+    }
   });
   if (orientation_only_) return;
-  const float least = *std::max_element(intensity.begin(), intensity.end()) / 10;
+  double largest = 0;
+  cv::minMaxLoc(intensity, nullptr, &largest);
+  const float least = static_cast<float>(largest) / 10;
   cv::Mat1f &red_green = channels_[kRedGreen].levels[0], &blue_yellow = channels_[kBlueYellow].levels[0];
-  for_row_bands(pool_, size_.height, [&](int first, int last) {
-    for (int i = first; i < last; ++i)
-      for (int c = 0; c < size_.width; ++c) {
-        const cv::Vec3b& p = colour(i, c);
-        const float scale = intensity(i, c) > least ? 1 / (255 * intensity(i, c)) : 0;
-        const float b = p[0] * scale, g = p[1] * scale, r = p[2] * scale;
-        const float red = std::max(0.0F, r - (g + b) / 2), green = std::max(0.0F, g - (r + b) / 2);
-        const float blue = std::max(0.0F, b - (r + g) / 2);
-        const float yellow = std::max(0.0F, (r + g) / 2 - std::abs(r - g) / 2 - b);
-        red_green(i, c) = red - green;
-        blue_yellow(i, c) = blue - yellow;
-      }
+  for_row_bands(pool_, size_.height, [&](int begin, int end) {
+    Planes bgr;
+    cv::split(colour.rowRange(begin, end), bgr.data());
+    for (int i = begin; i < end; ++i)
+      split_row({bgr[0][i - begin], bgr[1][i - begin], bgr[2][i - begin]}, intensity[i], least, size_.width,
+                red_green[i], blue_yellow[i]);
   });
 }
 
@@ -110,10 +81,15 @@ void IttiModel::build_pyramid(Pyramid& levels) const {
   for (std::size_t l = 1; l < kLevels; ++l) cv::pyrDown(levels[l - 1], levels[l]);
 }
 
+// The parts of the Gabor filters and, from them, one orientation, on the levels that are compared.
+void IttiModel::find_part(GaborFilters::Part part) {
+  for (auto l = static_cast<std::size_t>(kFirstCentre - finer_); l < kLevels; ++l)
+    gabor_.find_part(channels_[kIntensity].levels[l], part, gabor_parts_[l]);
+}
+
 void IttiModel::find_orientation(int orientation, ChannelState& state) const {
-  const Gabor gabor(orientation * std::numbers::pi / kOrientations);
-  for (std::size_t l = static_cast<std::size_t>(kFirstCentre - finer_); l < kLevels; ++l)
-    gabor.filter(channels_[kIntensity].levels[l], state.parts, state.levels[l]);
+  for (auto l = static_cast<std::size_t>(kFirstCentre - finer_); l < kLevels; ++l)
+    gabor_.find_energy(orientation, gabor_parts_[l], state.scratch, state.levels[l]);
 }
 
 // The sum over c and s of N(|level c - level s|) at the map's level.
@@ -165,6 +141,8 @@ void IttiModel::compute(const Frame& frame, RequestedOutputs, SaliencyMaps& maps
   split_colours(colour);
   const auto pyramid = [&](int i, int) { build_pyramid(channels_[static_cast<std::size_t>(i)].levels); };
   pool_.for_each(orientation_only_ ? 1 : static_cast<int>(kOrientation), std::ref(pyramid));
+  const auto gabor_part = [&](int i, int) { find_part(static_cast<GaborFilters::Part>(i)); };
+  pool_.for_each(GaborFilters::kParts, std::ref(gabor_part));
   const auto compare = [&](int i, int) {  // orientations first, since they take longest
     ChannelState& channel = channels_[static_cast<std::size_t>(kChannels - 1 - i)];
     if (i < kOrientations) find_orientation(kOrientations - 1 - i, channel);

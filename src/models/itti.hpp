@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "models/gabor.hpp"
 #include "models/model.hpp"
 
 namespace saccade {
@@ -18,7 +19,7 @@ class IttiModel : public SaliencyModel {
   void compute(const Frame& frame, RequestedOutputs outputs, SaliencyMaps& maps, StageTimes& times) override;
 
  private:
-  static constexpr int kOrientations = 4, kCentres = 3, kSurrounds = 2, kLevels = 9;
+  static constexpr int kOrientations = GaborFilters::kOrientations, kCentres = 3, kSurrounds = 2, kLevels = 9;
   static constexpr int kFirstCentre = 2, kDelta = 3, kMapLevel = 4;
   using Pyramid = std::array<cv::Mat1f, kLevels>;
   enum Channel { kIntensity, kRedGreen, kBlueYellow, kOrientation, kChannels = kOrientation + kOrientations };
@@ -27,12 +28,13 @@ class IttiModel : public SaliencyModel {
     Pyramid levels;
     cv::Mat1f sum;                                    ///< of the normalised differences, at the map's level
     std::array<cv::Mat1f, kMapLevel + 1> difference;  ///< |c - s|, at its level and at those up to the map's
-    std::array<cv::Mat1f, 2> parts;                   ///< of the Gabor filters
+    std::array<cv::Mat1f, 2> scratch;                 ///< of the Gabor filters
   };
 
   void resize(cv::Size size);
   void split_colours(const cv::Mat3b& colour);
   void build_pyramid(Pyramid& levels) const;
+  void find_part(GaborFilters::Part part);
   void find_orientation(int orientation, ChannelState& state) const;
   void compare_levels(ChannelState& state) const;
   void add_channels();
@@ -43,6 +45,8 @@ class IttiModel : public SaliencyModel {
   cv::Size size_;
   int finer_ = 0;  ///< subtracted from all level numbers, for small images
   std::array<ChannelState, kChannels> channels_;
+  GaborFilters gabor_;
+  std::array<GaborFilters::Parts, kLevels> gabor_parts_;
   cv::Mat1f conspicuity_;
 };
 

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "models/grey_pairs.hpp"
 #include "models/mirror_pairs.hpp"
 
 namespace saccade {
@@ -28,21 +29,15 @@ class GreyMeasure : public PairMeasure {
 
   void add_pairs(const MomentPlanes& moments, int r, const std::vector<MirrorPair>& pairs, float* score,
                  int width) const override {
+    std::vector<GreyPairRows> rows;
+    rows.reserve(pairs.size());
     for (const MirrorPair& pair : pairs) {
-      const float* ci = moments.row(kCos, r + pair.dy) + pair.dx;
-      const float* si = moments.row(kSin, r + pair.dy) + pair.dx;
-      const float* li = moments.row(kStrength, r + pair.dy) + pair.dx;
-      const float* cj = moments.row(kCos, r - pair.dy) - pair.dx;
-      const float* sj = moments.row(kSin, r - pair.dy) - pair.dx;
-      const float* lj = moments.row(kStrength, r - pair.dy) - pair.dx;
-      const float cos2a = pair.cos2a, sin2a = pair.sin2a, weight = pair.weight;
-      for (int c = 0; c < width; ++c) {
-        const float cc = ci[c] * cj[c], ss = si[c] * sj[c], sc = si[c] * cj[c] + ci[c] * sj[c];
-        const float mirrored = 1 - ((cc - ss) * cos2a + sc * sin2a);  // 1 - cos(ti + tj - 2 alpha)
-        const float opposed = 1 - (cc + ss);                          // 1 - cos(ti - tj)
-        score[c] += std::max(0.0F, mirrored) * std::max(0.0F, opposed) * (li[c] * lj[c] * weight);
-      }
+      const int i = r + pair.dy, j = r - pair.dy;
+      rows.push_back({moments.row(kCos, i) + pair.dx, moments.row(kSin, i) + pair.dx,
+                      moments.row(kStrength, i) + pair.dx, moments.row(kCos, j) - pair.dx,
+                      moments.row(kSin, j) - pair.dx, moments.row(kStrength, j) - pair.dx});
     }
+    add_grey_pairs(pairs, rows, score, width);
   }
 
  private:

@@ -67,15 +67,26 @@ std::optional<ValueRange> percentile_range(const cv::Mat1f& image, double percen
   return ValueRange{low_value, *high};
 }
 
+cv::Mat1b root_picture(const cv::Mat1f& map, double scale, double shift) {
+  constexpr int kBandRows = 16;  // the temporary values of a band stay in the cache
+  cv::Mat1b picture(map.size());
+  cv::Mat1f places;
+  for (int begin = 0; begin < map.rows; begin += kBandRows) {
+    const cv::Range rows(begin, std::min(begin + kBandRows, map.rows));
+    map.rowRange(rows).convertTo(places, CV_32F, scale, shift);
+    cv::max(places, 0.0, places);
+    cv::sqrt(places, places);
+    cv::Mat1b band = picture.rowRange(rows);
+    places.convertTo(band, CV_8U, 255);
+  }
+  return picture;
+}
+
 cv::Mat1b to_grey(const cv::Mat1f& map) {
   double largest = 0;
   cv::minMaxLoc(map, nullptr, &largest);
   if (largest <= 0) return cv::Mat1b(map.size(), std::uint8_t{0});
-  cv::Mat1f root;
-  cv::sqrt(map / largest, root);
-  cv::Mat1b grey;
-  root.convertTo(grey, CV_8U, 255);
-  return grey;
+  return root_picture(map, 1 / largest, 0);
 }
 
 cv::Vec3b depth_colour(Palette palette, double share) {

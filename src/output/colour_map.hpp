@@ -33,6 +33,10 @@ struct ValueRange {
 /// sample of every 7th pixel; none if no pixel of the sample is above 0.
 std::optional<ValueRange> percentile_range(const cv::Mat1f& image, double percent);
 
+/// 255 * sqrt(place) with place = value * scale + shift, cut to 0..1: weak values are visible beside strong
+/// ones. H x W, 8 bits.
+cv::Mat1b root_picture(const cv::Mat1f& map, double scale, double shift);
+
 /// A map as an 8-bit grey picture: 255 * sqrt(value / largest value), since a saliency map has few strong and
 /// many weak pixels; all black if no value is above 0.
 cv::Mat1b to_grey(const cv::Mat1f& map);

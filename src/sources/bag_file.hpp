@@ -61,4 +61,13 @@ std::unique_ptr<BagFile> open_mcap(const std::filesystem::path& path);
 std::unique_ptr<BagFile> open_ros1_bag(const std::filesystem::path& path);
 std::unique_ptr<BagFile> open_db3(const std::filesystem::path& path);
 
+/// A file of a recording that is split into several.
+struct BagPart {
+  std::string name;  ///< for problems
+  std::unique_ptr<BagFile> file;
+};
+
+/// The parts as one recording. They are scanned in their order.
+std::unique_ptr<BagFile> join_bags(std::vector<BagPart> parts);
+
 }  // namespace saccade

@@ -11,6 +11,7 @@
 
 #include "core/error.hpp"
 #include "sources/bag_topics.hpp"
+#include "sources/folder_files.hpp"
 #include "sources/frame_fields.hpp"
 #include "sources/ros_messages.hpp"
 #include "sources/source_kind.hpp"
@@ -38,8 +39,9 @@ double measure_rate_hz(const std::vector<BagMessage>& messages) {
 class BagSource final : public FrameSource {
  public:
   BagSource(const SourceInput& input, std::string_view kind, std::unique_ptr<BagFile> file,
-            const InputSettings& settings)
+            const InputSettings& settings, std::vector<std::string> notes)
       : file_(std::move(file)) {
+    info_.notes = std::move(notes);
     std::vector<BagStream> streams = list_streams(*file_);
     const ChosenStreams chosen = choose_streams(streams, settings, input.uri);
     depth_ = std::move(streams[chosen.depth]);
@@ -168,22 +170,25 @@ bool is_ros2_folder(const SourceInput& input) {
   return false;
 }
 
-// The recording in the folder of a ROS 2 bag.
-fs::path file_of(const SourceInput& input) {
-  if (input.type != SourceInput::Type::folder) return input.path;
-  std::vector<fs::path> files;
-  for (const auto& file : fs::directory_iterator(input.path))
-    if (is_bag(file.path())) files.push_back(file.path());
-  if (files.size() > 1)
-    throw unreadable(fmt::format("the recording is split into {} files", files.size()), input.uri,
-                     "name one of them");
-  return files.at(0);
-}
-
 std::unique_ptr<BagFile> open_bag(const fs::path& path) {
   const std::string ending = ending_of(path);
   if (ending == ".mcap") return open_mcap(path);
   return ending == ".db3" ? open_db3(path) : open_ros1_bag(path);
+}
+
+// The recording in the folder of a ROS 2 bag: of one file, or split into several (NAME_0, NAME_1, ...). A
+// part that cannot be read is a note as long as another can.
+std::unique_ptr<BagFile> open_ros2_folder(const fs::path& folder, std::vector<std::string>& notes) {
+  std::vector<BagPart> parts;
+  std::optional<Error> first_error;
+  for (const auto& [stem, path] : files_of(folder, {std::begin(kEndings), std::end(kEndings)})) try {
+      parts.push_back({path.filename().string(), open_bag(path)});
+    } catch (const Error& error) {
+      notes.emplace_back(error.what());
+      if (!first_error) first_error = error;
+    }
+  if (parts.empty()) throw *first_error;
+  return parts.size() == 1 && !first_error ? std::move(parts[0].file) : join_bags(std::move(parts));
 }
 
 }  // namespace
@@ -197,7 +202,11 @@ extern const SourceKind kBagKind = {
     .endings = kEndings,
     .recognises = is_ros2_folder,
     .open = [](const SourceInput& input, const SourceOptions& options) -> std::unique_ptr<FrameSource> {
-      return std::make_unique<BagSource>(input, kBagKind.name, open_bag(file_of(input)), options.input);
+      std::vector<std::string> notes;
+      auto file = input.type == SourceInput::Type::folder ? open_ros2_folder(input.path, notes)
+                                                          : open_bag(input.path);
+      return std::make_unique<BagSource>(input, kBagKind.name, std::move(file), options.input,
+                                         std::move(notes));
     },
 };
 

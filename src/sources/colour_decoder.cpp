@@ -31,8 +31,8 @@ void turn_upright(double angle_degrees, cv::Mat3b& image) {
 
 void ColourDecoder::FreeScaler::operator()(SwsContext* scaler) const { sws_freeContext(scaler); }
 
-ColourDecoder::ColourDecoder(const std::filesystem::path& path)
-    : file_(path), frame_(av_frame_alloc()), bgr_(av_frame_alloc()) {
+ColourDecoder::ColourDecoder(const std::filesystem::path& path, std::string_view title)
+    : file_(path, title), frame_(av_frame_alloc()), bgr_(av_frame_alloc()) {
   const AVCodec* codec = avcodec_find_decoder(file_.codec().codec_id);
   const auto refuse = [&](const std::string& why) {
     return unreadable("this video cannot be decoded: " + why, path.string(), "the file may be damaged");

@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include <opencv2/core.hpp>
 
@@ -23,13 +24,13 @@ struct ColourPicture {
   std::string problem;       ///< the reason then, else empty
 };
 
-/// The pictures of the first video stream of a file in the order of their times, by libavcodec. A picture
+/// The pictures of one video stream of a file in the order of their times, by libavcodec. A picture
 /// that is lost or damaged keeps its place, and so do those that depend on it, up to the next key frame.
 /// Damage that a codec without checksums decodes into other pixels goes unnoticed.
 class ColourDecoder {
  public:
-  /// Throws Error (unreadable): not a video, or of an unknown codec.
-  explicit ColourDecoder(const std::filesystem::path& path);
+  /// `title` as in VideoFile. Throws Error (unreadable): not a video, or of an unknown codec.
+  explicit ColourDecoder(const std::filesystem::path& path, std::string_view title = {});
 
   double rate_hz() const { return file_.rate_hz(); }  ///< nominal, > 0
 

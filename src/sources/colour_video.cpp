@@ -8,11 +8,14 @@
 
 namespace saccade {
 
-ColourVideo::ColourVideo(std::filesystem::path path) : path_(std::move(path)) { open(); }
+ColourVideo::ColourVideo(std::filesystem::path path, std::string title)
+    : path_(std::move(path)), title_(std::move(title)) {
+  open();
+}
 
 void ColourVideo::open() {
   constexpr std::size_t kMostTried = 10'000;
-  decoder_ = std::make_unique<ColourDecoder>(path_);
+  decoder_ = std::make_unique<ColourDecoder>(path_, title_);
   first_.clear();
   now_.reset();
   ahead_.reset();

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <string>
 
 #include <opencv2/core.hpp>
 
@@ -15,8 +16,8 @@ namespace saccade {
 /// Colour images of a video file, in the order of their times.
 class ColourVideo {
  public:
-  /// Throws Error (unreadable): not a video, or without any sound image.
-  explicit ColourVideo(std::filesystem::path path);
+  /// `title` as in VideoFile. Throws Error (unreadable): not a video, or without any sound image.
+  explicit ColourVideo(std::filesystem::path path, std::string title = {});
 
   cv::Size size() const { return size_; }  ///< of the first sound image
   double rate_hz() const { return decoder_->rate_hz(); }
@@ -38,6 +39,7 @@ class ColourVideo {
   void advance();
 
   std::filesystem::path path_;
+  std::string title_;
   std::unique_ptr<ColourDecoder> decoder_;
   cv::Size size_;
   std::deque<ColourPicture> first_;  // up to the first sound one, for as long as they have not been read

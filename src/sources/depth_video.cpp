@@ -28,7 +28,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* kExactRoutes =
-    "depth must be FFV1 gray16le, 16-bit PNGs or rawvideo gray16le, in Matroska, AVI, MOV or NUT";
+    "depth must be FFV1 gray16le, 16-bit PNGs or rawvideo gray16le or gray16be, in Matroska, AVI, MOV or NUT";
 
 using Bytes = std::span<const std::uint8_t>;
 
@@ -44,7 +44,7 @@ bool is_png(Bytes packet) {
 // Images of a file's packets, which derived classes decode.
 class PacketVideo : public DepthVideo {
  public:
-  explicit PacketVideo(const fs::path& path) : file_(path) {}
+  PacketVideo(const fs::path& path, std::string_view title) : file_(path, title) {}
 
   cv::Size size() const final { return file_.size(); }
   double rate_hz() const final { return file_.rate_hz(); }
@@ -107,7 +107,15 @@ class RawVideo final : public PacketVideo {
       throw std::runtime_error(
           fmt::format("{} for {}x{} pixels", counted(bytes.size(), "byte"), size().width, size().height));
     depth.create(size());
-    std::ranges::copy(bytes, depth.data);
+    if (file().codec().format == AV_PIX_FMT_GRAY16LE) {
+      std::ranges::copy(bytes, depth.data);
+      return;
+    }
+    const std::uint8_t* big = bytes.data();
+    for (std::uint16_t& value : depth) {
+      value = static_cast<std::uint16_t>(big[0] << 8 | big[1]);
+      big += 2;
+    }
   }
   bool proves_itself(const AVPacket&) const override { return false; }
 };
@@ -115,7 +123,8 @@ class RawVideo final : public PacketVideo {
 // An image may depend on those before it, back to the last key frame.
 class Ffv1Video final : public PacketVideo {
  public:
-  explicit Ffv1Video(const fs::path& path) : PacketVideo(path), frame_(av_frame_alloc()) {
+  Ffv1Video(const fs::path& path, std::string_view title)
+      : PacketVideo(path, title), frame_(av_frame_alloc()) {
     const AVCodec* codec = avcodec_find_decoder(AV_CODEC_ID_FFV1);
     context_.reset(codec == nullptr ? nullptr : avcodec_alloc_context3(codec));
     if (!frame_ || !context_) throw std::bad_alloc();
@@ -206,19 +215,18 @@ bool is_grey16(int format) { return format == AV_PIX_FMT_GRAY16LE || format == A
 
 }  // namespace
 
-std::unique_ptr<DepthVideo> open_depth_video(const fs::path& path) {
-  VideoFile file(path);
+std::unique_ptr<DepthVideo> open_depth_video(const fs::path& path, std::string_view title) {
+  VideoFile file(path, title);
   const auto first = file.next();
   if (!first || first->packet == nullptr)
     throw unreadable("no video that can be read", path.string(), "the file may be truncated or not a video");
   const AVCodecParameters& codec = file.codec();
   const bool png = is_png(bytes_of(*first->packet));
   if (is_grey16(codec.format)) {
-    if (png) return std::make_unique<PngVideo>(path);
-    if (codec.format == AV_PIX_FMT_GRAY16LE && codec.codec_id == AV_CODEC_ID_RAWVIDEO)
-      return std::make_unique<RawVideo>(path);
+    if (png) return std::make_unique<PngVideo>(path, title);
+    if (codec.codec_id == AV_CODEC_ID_RAWVIDEO) return std::make_unique<RawVideo>(path, title);
     if (codec.format == AV_PIX_FMT_GRAY16LE && codec.codec_id == AV_CODEC_ID_FFV1)
-      return std::make_unique<Ffv1Video>(path);
+      return std::make_unique<Ffv1Video>(path, title);
     throw unreadable("16-bit grey in a codec that need not keep every bit", path.string(), kExactRoutes);
   }
   if (path.stem().string().ends_with("_depth"))

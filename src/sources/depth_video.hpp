@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
-#include <string>
+#include <string_view>
 
 #include <opencv2/core.hpp>
 
@@ -28,9 +28,9 @@ class DepthVideo {
   [[nodiscard]] virtual bool skip() = 0;
 };
 
-/// Opens a video file of depth: FFV1 of 16-bit grey, 16-bit grey PNGs, or uncompressed 16-bit grey. nullptr
-/// if it holds 8-bit video. Throws Error (unreadable): not a video, images that check_image_size() refuses,
-/// or 16 bits in a codec that does not keep them.
-std::unique_ptr<DepthVideo> open_depth_video(const std::filesystem::path& path);
+/// Opens a video file of depth: FFV1 of 16-bit grey, 16-bit grey PNGs, or uncompressed 16-bit grey; `title`
+/// as in VideoFile. nullptr if it holds 8-bit video. Throws Error (unreadable): not a video, images that
+/// check_image_size() refuses, or 16 bits in a codec that does not keep them.
+std::unique_ptr<DepthVideo> open_depth_video(const std::filesystem::path& path, std::string_view title = {});
 
 }  // namespace saccade

@@ -74,7 +74,7 @@ fs::path colour_of(const FolderNames& names, const std::string& depth) {
   for (const char* word : {"rgb", "color", "colour"}) {
     std::string colour = stem;
     colour.replace(found, kDepth.size(), word);
-    const fs::path path = names.first_of({colour + ".png", colour + ".jpg", colour + ".jpeg"});
+    fs::path path = names.first_of({colour + ".png", colour + ".jpg", colour + ".jpeg"});
     if (!path.empty()) return path;
   }
   return {};

@@ -15,6 +15,7 @@
 #include "core/png.hpp"
 #include "oni/bytes.hpp"
 #include "oni/jpeg.hpp"
+#include "sources/rvl.hpp"
 
 namespace saccade {
 namespace {
@@ -106,20 +107,34 @@ cv::Mat pixels_of(const RosImage& image, int type) {
           const_cast<std::uint8_t*>(image.data.data()), image.step};
 }
 
-// A PNG behind a header of 12 bytes: format, and two floats with which depth in metres was made inverse.
+// A PNG, or the size of the image (columns, rows: 32 bits each) and its pixels by RVL.
+cv::Mat1w decode_compressed_depth(Bytes data, bool rvl) {
+  if (!rvl) {
+    const cv::Mat png = decode_png(data);
+    if (png.type() != CV_16UC1) throw std::runtime_error("its PNG is not 16-bit grey");
+    return png;
+  }
+  constexpr std::size_t kSizes = 8;
+  if (data.size() < kSizes) throw std::runtime_error("its message is too short");
+  const auto columns = load_le<std::uint32_t>(&data[0]), rows = load_le<std::uint32_t>(&data[4]);
+  check_image_size(columns, rows);
+  cv::Mat1w depth(static_cast<int>(rows), static_cast<int>(columns));
+  decode_rvl(data.subspan(kSizes), depth);
+  return depth;
+}
+
+// An image behind a header of 12 bytes: format, and two floats with which depth in metres was made inverse.
 void compressed_depth(const RosImage& image, double unit_mm, cv::Mat1f& depth_mm) {
   constexpr std::size_t kHeader = 12;
-  if (image.encoding.find("rvl") != std::string::npos)
-    throw std::runtime_error("depth compressed with RVL is not read");
   if (image.data.size() < kHeader) throw std::runtime_error("its message is too short");
-  const cv::Mat png = decode_png(image.data.subspan(kHeader));
-  if (png.type() != CV_16UC1) throw std::runtime_error("its PNG is not 16-bit grey");
-  if (!image.encoding.starts_with("32FC1")) return depth_from_units(png, unit_mm, depth_mm);
+  const bool rvl = image.encoding.find("rvl") != std::string::npos;
+  const cv::Mat1w stored = decode_compressed_depth(image.data.subspan(kHeader), rvl);
+  if (!image.encoding.starts_with("32FC1")) return depth_from_units(stored, unit_mm, depth_mm);
   const auto a = load_le<float>(&image.data[4]), b = load_le<float>(&image.data[8]);
-  cv::Mat1f metres(png.size());
-  std::transform(
-      png.begin<std::uint16_t>(), png.end<std::uint16_t>(), metres.begin(),
-      [&](std::uint16_t value) { return value == 0 ? 0.0F : a / (static_cast<float>(value) - b); });
+  cv::Mat1f metres(stored.size());
+  std::transform(stored.begin(), stored.end(), metres.begin(), [&](std::uint16_t value) {
+    return value == 0 ? 0.0F : a / (static_cast<float>(value) - b);
+  });
   depth_from_reals(metres, 1000, depth_mm);
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <new>
+#include <span>
 #include <stdexcept>
 #include <vector>
 
@@ -46,6 +47,22 @@ class Options {
   AVDictionary* options_ = nullptr;
 };
 
+Error no_video(int code, const fs::path& path) {
+  return unreadable(fmt::format("no video that can be read: {}", reason_of(code)), path.string(), kHint);
+}
+
+std::span<AVStream* const> streams_of(const AVFormatContext& format) {
+  return {format.streams, format.nb_streams};
+}
+
+bool is_video(const AVStream& stream) { return stream.codecpar->codec_type == AVMEDIA_TYPE_VIDEO; }
+
+// A value that the file gives to the stream; empty = none.
+std::string_view value_of(const AVStream& stream, const char* key) {
+  const AVDictionaryEntry* entry = av_dict_get(stream.metadata, key, nullptr, 0);
+  return entry == nullptr ? "" : entry->value;
+}
+
 }  // namespace
 
 void collect_video_message(void*, int level, const char* format, va_list arguments) {
@@ -64,25 +81,24 @@ VideoMessages::VideoMessages() {
 
 VideoMessages::~VideoMessages() { t_messages = nullptr; }
 
-VideoFile::VideoFile(const fs::path& path) : packet_(av_packet_alloc()), checksums_(path) {
+VideoFile::VideoFile(const fs::path& path, std::string_view title)
+    : packet_(av_packet_alloc()), checksums_(path) {
   if (!packet_) throw std::bad_alloc();
   open(path);
+  choose_stream(path, title);
   const AVRational rate = av_guess_frame_rate(format_.get(), stream_, nullptr);
   if (const double hz = av_q2d(rate); rate.den != 0 && std::isfinite(hz) && hz > 0) rate_hz_ = hz;
 }
 
 void VideoFile::open(const fs::path& path) {
   VideoMessages messages;
-  const auto refuse = [&](int code) {
-    return unreadable(fmt::format("no video that can be read: {}", reason_of(code)), path.string(), kHint);
-  };
   Options options;
   options.set("format_whitelist", kVideoFormats);
   options.set("protocol_whitelist", "file");
   AVFormatContext* format = nullptr;
   int code = avformat_open_input(&format, ("file:" + path.string()).c_str(), nullptr, options.get());
   if (code == AVERROR(ENOMEM)) throw std::bad_alloc();
-  if (code < 0) throw refuse(code);
+  if (code < 0) throw no_video(code, path);
   format_.reset(format);
   // The codecs that look at the first images must not be led to allocate more, or to start threads.
   std::vector<Options> of_streams(format->nb_streams);
@@ -96,13 +112,23 @@ void VideoFile::open(const fs::path& path) {
   code = lists.empty() ? AVERROR_STREAM_NOT_FOUND : avformat_find_stream_info(format, lists.data());
   for (AVDictionary*& list : lists) av_dict_free(&list);
   if (code == AVERROR(ENOMEM)) throw std::bad_alloc();
-  if (code < 0) throw refuse(code);
-  const int stream = av_find_best_stream(format, AVMEDIA_TYPE_VIDEO, -1, -1, nullptr, 0);
-  if (stream < 0) throw refuse(stream);
-  stream_ = format->streams[stream];
-  for (unsigned i = 0; i < format->nb_streams; ++i)
-    if (format->streams[i] != stream_) format->streams[i]->discard = AVDISCARD_ALL;
-  if (codec().width < 1 || codec().height < 1) throw refuse(AVERROR_INVALIDDATA);
+  if (code < 0) throw no_video(code, path);
+}
+
+void VideoFile::choose_stream(const fs::path& path, std::string_view title) {
+  for (AVStream* stream : streams_of(*format_))
+    if (stream_ == nullptr && !title.empty() && is_video(*stream) && value_of(*stream, "title") == title)
+      stream_ = stream;
+  if (title.empty()) {
+    VideoMessages messages;
+    const int best = av_find_best_stream(format_.get(), AVMEDIA_TYPE_VIDEO, -1, -1, nullptr, 0);
+    if (best < 0) throw no_video(best, path);
+    stream_ = format_->streams[best];
+  }
+  if (stream_ == nullptr) throw no_video(AVERROR_STREAM_NOT_FOUND, path);
+  for (AVStream* stream : streams_of(*format_))
+    if (stream != stream_) stream->discard = AVDISCARD_ALL;
+  if (codec().width < 1 || codec().height < 1) throw no_video(AVERROR_INVALIDDATA, path);
   try {
     check_image_size(codec().width, codec().height);
   } catch (const std::runtime_error& error) {
@@ -132,9 +158,31 @@ std::int64_t VideoFile::time_of(const AVPacket& packet) const {
   return time_us(time);
 }
 
+std::int64_t VideoFile::start_us() const {
+  const std::int64_t first = stream_->start_time == AV_NOPTS_VALUE ? 0 : stream_->start_time;
+  return av_rescale_q(first, stream_->time_base, {1, 1'000'000});
+}
+
 std::int64_t VideoFile::time_us(std::int64_t timestamp) const {
   const std::int64_t first = stream_->start_time == AV_NOPTS_VALUE ? 0 : stream_->start_time;
   return av_rescale_q(timestamp - first, stream_->time_base, {1, 1'000'000});
+}
+
+std::vector<std::string> VideoFile::titles() const {
+  std::vector<std::string> result;
+  for (const AVStream* stream : streams_of(*format_))
+    if (is_video(*stream)) result.emplace_back(value_of(*stream, "title"));
+  return result;
+}
+
+std::optional<std::string> VideoFile::attachment(std::string_view name) const {
+  for (const AVStream* stream : streams_of(*format_)) {
+    const AVCodecParameters& content = *stream->codecpar;
+    if (content.codec_type == AVMEDIA_TYPE_ATTACHMENT && content.extradata_size > 0 &&
+        value_of(*stream, "filename") == name)
+      return std::string(content.extradata, content.extradata + content.extradata_size);
+  }
+  return std::nullopt;
 }
 
 double VideoFile::rotation_degrees() const {

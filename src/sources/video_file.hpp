@@ -6,7 +6,9 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 #include <opencv2/core.hpp>
 
@@ -49,16 +51,26 @@ struct VideoPacket {
   std::string problem;       ///< not empty: the image is lost or damaged
 };
 
-/// The packets of the first video stream of a file, by libavformat. The file cannot lead to other files.
+/// The packets of one video stream of a file, by libavformat. The file cannot lead to other files.
 class VideoFile {
  public:
-  /// Throws Error (unreadable): not a video, or images that check_image_size() refuses.
-  explicit VideoFile(const std::filesystem::path& path);
+  /// Opens the stream with that title; without one, the stream that libavformat thinks best. Throws Error
+  /// (unreadable): not a video, no such stream, or images that check_image_size() refuses.
+  explicit VideoFile(const std::filesystem::path& path, std::string_view title = {});
+
+  /// The titles of all video streams; empty ones too.
+  std::vector<std::string> titles() const;
+
+  /// The content of a file that is attached; std::nullopt if there is none of that name.
+  std::optional<std::string> attachment(std::string_view name) const;
 
   const AVCodecParameters& codec() const { return *stream_->codecpar; }
   cv::Size size() const { return {codec().width, codec().height}; }
   double rate_hz() const { return rate_hz_; }  ///< nominal, > 0
   AVRational time_base() const { return stream_->time_base; }
+
+  /// The time of the first image in the container, by which streams of one file are aligned.
+  std::int64_t start_us() const;
 
   /// A timestamp of the stream as time from the first image.
   std::int64_t time_us(std::int64_t timestamp) const;
@@ -83,6 +95,7 @@ class VideoFile {
   };
 
   void open(const std::filesystem::path& path);
+  void choose_stream(const std::filesystem::path& path, std::string_view title);
   bool read_packet();
   std::int64_t time_of(const AVPacket& packet) const;
   std::int64_t missing_before(std::int64_t time_us) const;

@@ -3,7 +3,10 @@
 #include <cmath>
 #include <functional>
 #include <map>
+#include <memory>
+#include <optional>
 #include <stdexcept>
+#include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -12,6 +15,8 @@
 #include <opencv2/imgproc.hpp>
 
 #include "core/depth_units.hpp"
+#include "core/error.hpp"
+#include "sources/azure_recording.hpp"
 #include "sources/colour_video.hpp"
 #include "sources/depth_video.hpp"
 #include "sources/frame_fields.hpp"
@@ -29,8 +34,9 @@ constexpr std::string_view kEndings[] = {".mkv", ".nut",  ".mov", ".mp4",  ".m4v
                                          ".avi", ".webm", ".mpg", ".mpeg", ".ogv"};
 constexpr std::string_view kDepth = "_depth";  // ends the name of a video of depth
 
-void take_meta(SourceInfo& info, const FolderMeta& meta) {
-  info.intrinsics = meta.camera.value_or(Intrinsics::guess_for(info.size));
+void take_meta(SourceInfo& info, const FolderMeta& meta,
+               const std::optional<Intrinsics>& camera_of_file = {}) {
+  info.intrinsics = meta.camera ? *meta.camera : camera_of_file.value_or(Intrinsics::guess_for(info.size));
   info.rate_hz = meta.rate_hz.value_or(info.rate_hz);
   info.sequence = meta.sequence.value_or(true);
 }
@@ -42,33 +48,45 @@ fs::path times_of_video(const fs::path& path) {
   return path.parent_path() / (stem + "_times.txt");
 }
 
+// What a source of depth reads.
+struct DepthAndColour {
+  std::function<std::unique_ptr<DepthVideo>()> reopen;  // opens `depth` from its beginning
+  std::unique_ptr<DepthVideo> depth;
+  std::unique_ptr<ColourVideo> colour;               // nullptr = none
+  std::int64_t colour_delay_us = 0;                  // its first image after that of depth
+  std::unique_ptr<ColourRegistration> registration;  // nullptr: colour is only scaled
+  std::optional<Intrinsics> camera;                  // that the file names
+  std::vector<std::string> notes;
+};
+
 // Depth, with colour where there is some.
 class DepthVideoSource final : public FrameSource {
  public:
-  using OpenDepth = std::function<std::unique_ptr<DepthVideo>()>;
-
-  // `reopen` opens `depth` from its beginning.
-  DepthVideoSource(const SourceInput& input, std::string_view kind, std::unique_ptr<DepthVideo> depth,
-                   OpenDepth reopen, std::unique_ptr<ColourVideo> colour, const InputSettings& settings)
+  DepthVideoSource(const SourceInput& input, std::string_view kind, DepthAndColour parts,
+                   const InputSettings& settings)
       : times_us_(read_times(times_of_video(input.path))),
-        reopen_(std::move(reopen)),
-        depth_(std::move(depth)),
-        colour_(std::move(colour)) {
+        reopen_(std::move(parts.reopen)),
+        depth_(std::move(parts.depth)),
+        colour_(std::move(parts.colour)),
+        colour_delay_us_(parts.colour_delay_us),
+        registration_(std::move(parts.registration)) {
     info_.uri = input.uri;
     info_.kind = kind;
     info_.size = depth_->size();
     info_.rate_hz = depth_->rate_hz();
     const FolderMeta meta = read_meta(input.path.parent_path());
-    info_.notes = meta.notes;
+    info_.notes = std::move(parts.notes);
+    info_.notes.insert(info_.notes.end(), meta.notes.begin(), meta.notes.end());
     info_.depth_unit_mm =
         settings.depth_unit_mm > 0 ? settings.depth_unit_mm : meta.depth_unit_mm.value_or(1);
     tolerance_us_ = std::llround(0.75e6 / info_.rate_hz);
-    take_meta(info_, meta);
+    take_meta(info_, meta, parts.camera);
     if (!depth_->has_checksums())
       info_.notes.emplace_back("the file has no checksums: damage of its images may go unnoticed");
     if (!colour_) return;
     tolerance_us_ = std::max<std::int64_t>(tolerance_us_, std::llround(0.75e6 / colour_->rate_hz()));
-    if (colour_->size() != info_.size)
+    if (registration_ && registration_->colour_size() != colour_->size()) registration_.reset();
+    if (!registration_ && colour_->size() != info_.size)
       info_.notes.push_back(fmt::format("colour of {} x {} is scaled to the depth's {} x {}",
                                         colour_->size().width, colour_->size().height, info_.size.width,
                                         info_.size.height));
@@ -89,14 +107,17 @@ class DepthVideoSource final : public FrameSource {
     } catch (const std::runtime_error& error) {
       return {ReadStatus::rejected, fmt::format("frame {}: {}", frame.index, error.what())};
     }
-    const bool has_colour = colour_ && colour_->nearest(frame.timestamp_us, tolerance_us_, colour_image_);
+    const bool has_colour =
+        colour_ && colour_->nearest(frame.timestamp_us - colour_delay_us_, tolerance_us_, colour_image_);
     if (const auto time = times_us_.find(frame.index); time != times_us_.end())
       frame.timestamp_us = time->second;
     if (!has_colour) {
       frame.colour.release();
       return {ReadStatus::frame, colour_ ? "no colour of that time" : ""};
     }
-    if (colour_image_.size() == info_.size)
+    if (registration_)
+      registration_->apply(frame.depth_mm, colour_image_, frame.colour);
+    else if (colour_image_.size() == info_.size)
       colour_image_.copyTo(frame.colour);
     else
       cv::resize(colour_image_, frame.colour, info_.size, 0, 0, cv::INTER_AREA);
@@ -116,9 +137,11 @@ class DepthVideoSource final : public FrameSource {
 
   SourceInfo info_;
   std::map<std::int64_t, std::int64_t> times_us_;  // of the list beside it, which is finer than the container
-  OpenDepth reopen_;
+  std::function<std::unique_ptr<DepthVideo>()> reopen_;
   std::unique_ptr<DepthVideo> depth_;
-  std::unique_ptr<ColourVideo> colour_;  // nullptr = none
+  std::unique_ptr<ColourVideo> colour_;
+  std::int64_t colour_delay_us_ = 0;
+  std::unique_ptr<ColourRegistration> registration_;
   std::int64_t tolerance_us_ = 0, wanted_ = 0, next_ = 0;
   cv::Mat1w image_;
   cv::Mat3b colour_image_;
@@ -181,21 +204,46 @@ std::unique_ptr<ColourVideo> colour_of_video(const fs::path& path) {
   return nullptr;
 }
 
+// The streams of one recording. Colour that cannot be read is a note: depth does not need it.
+DepthAndColour parts_of(const fs::path& path, AzureRecording recording) {
+  DepthAndColour parts;
+  parts.reopen = [path] { return open_depth_video(path, kAzureDepth); };
+  parts.depth = parts.reopen();
+  parts.notes = std::move(recording.notes);
+  if (recording.has_colour) try {
+      parts.colour = std::make_unique<ColourVideo>(path, kAzureColour);
+    } catch (const Error& error) {
+      parts.notes.push_back(fmt::format("no colour: {}", error.what()));
+    }
+  parts.colour_delay_us = recording.colour_delay_us;
+  parts.registration = std::move(recording.registration);
+  parts.camera = recording.camera;
+  return parts;
+}
+
+DepthAndColour parts_of(const fs::path& path) {
+  DepthAndColour parts;
+  parts.reopen = [path] { return open_depth_video(path); };
+  parts.depth = parts.reopen();
+  if (parts.depth) parts.colour = colour_of_video(path);
+  return parts;
+}
+
 }  // namespace
 
 extern const SourceKind kVideoKind = {
     .name = "video",
     .written = "FILE.mkv",
-    .help = "a video of 16-bit depth with its colour beside it; any other video as colour without depth",
+    .help =
+        "a recording of Azure Kinect; a video of 16-bit depth, its colour beside it; any other video as "
+        "colour",
     .recognised_by = "the ending",
     .endings = kEndings,
     .open = [](const SourceInput& input, const SourceOptions& options) -> std::unique_ptr<FrameSource> {
-      const auto open = [path = input.path] { return open_depth_video(path); };
-      auto depth = open();
-      if (!depth) return std::make_unique<ColourVideoSource>(input, kVideoKind.name);
-      auto colour = colour_of_video(input.path);
-      return std::make_unique<DepthVideoSource>(input, kVideoKind.name, std::move(depth), open,
-                                                std::move(colour), options.input);
+      auto recording = read_azure_recording(input.path);
+      DepthAndColour parts = recording ? parts_of(input.path, std::move(*recording)) : parts_of(input.path);
+      if (!parts.depth) return std::make_unique<ColourVideoSource>(input, kVideoKind.name);
+      return std::make_unique<DepthVideoSource>(input, kVideoKind.name, std::move(parts), options.input);
     },
 };
 

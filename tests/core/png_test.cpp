@@ -31,6 +31,19 @@ TEST(Png, RoundTripIsExactAlsoWithOpenCvAsTheReader) {
   }
 }
 
+TEST(Png, LargePicturesAndWideOnesAreExactToo) {
+  cv::Mat3b half_flat(300, 400, cv::Vec3b(1, 2, 3));
+  noise<cv::Mat3b>({200, 300}).copyTo(half_flat.colRange(100, 300));
+  cv::Mat1w ramp(300, 400);
+  for (int r = 0; r < ramp.rows; ++r)
+    for (int c = 0; c < ramp.cols; ++c) ramp(r, c) = static_cast<std::uint16_t>(r < 100 ? 0 : r * c);
+  for (const cv::Mat& image : {cv::Mat(half_flat), cv::Mat(ramp), cv::Mat(noise<cv::Mat3b>({8000, 20}))}) {
+    const auto png = encode_png(image);
+    EXPECT_TRUE(same(decode_png(png), image));
+    EXPECT_TRUE(same(cv::imdecode(png, cv::IMREAD_UNCHANGED), image));
+  }
+}
+
 TEST(Png, ReadsFilesOfOpenCv) {
   for (const cv::Mat& image : {cv::Mat(noise<cv::Mat1b>({33, 9})), cv::Mat(noise<cv::Mat1w>({33, 9})),
                                cv::Mat(noise<cv::Mat3b>({33, 9}))}) {

@@ -17,12 +17,15 @@
 #include "eval/result_file.hpp"
 #include "output/cloud_files.hpp"
 #include "settings/settings.hpp"
+#include "sources/azure_recording.hpp"
 #include "sources/meta_json.hpp"
 #include "sources/open_source.hpp"
 #include "sources/pcd.hpp"
 #include "sources/ply.hpp"
 #include "sources/poses_file.hpp"
+#include "sources/rvl.hpp"
 #include "tests/eval/samples.hpp"
+#include "tests/sources/azure_calibration.hpp"
 #include "tests/sources/bag_writer.hpp"
 #include "tests/sources/ffv1_writer.hpp"
 #include "tests/sources/matroska_writer.hpp"
@@ -36,6 +39,7 @@ namespace saccade {
 namespace {
 
 namespace fs = std::filesystem;
+using Input = std::span<const std::uint8_t>;
 
 // A folder of this process, removed when it ends.
 class Folder {
@@ -168,6 +172,33 @@ bool read_any_tum_list(std::span<const std::uint8_t> bytes) {
   return play(folder.path().string());
 }
 
+std::vector<Bytes> azure_seeds() { return {bytes_of(calibration_json())}; }
+
+// The calibration in a recording of Azure Kinect, and colours registered by it.
+bool read_any_calibration(Input bytes) {
+  return decodes([&] {
+    const AzureCalibration calibration(text_of(bytes), {320, 288}, {16, 12});
+    LensCamera depth = calibration.depth;
+    depth.size = {16, 12};
+    ColourRegistration registration(depth, calibration.colour, calibration.rotation,
+                                    calibration.translation_mm);
+    cv::Mat1f depth_mm;
+    small_depth().convertTo(depth_mm, CV_32F);
+    depth_mm(3, 4) = 0;
+    cv::Mat3b registered;
+    registration.apply(depth_mm, cv::Mat3b(12, 16, cv::Vec3b(1, 2, 3)), registered);
+    return registered;
+  });
+}
+
+std::vector<Bytes> rvl_seeds() { return {encode_rvl(small_depth())}; }
+
+cv::Mat1w read_any_rvl(Input bytes) {
+  cv::Mat1w depth(12, 16);
+  decode_rvl(bytes, depth);
+  return depth;
+}
+
 std::vector<Bytes> meta_seeds() {
   return {bytes_of(R"({"fx": 525.0, "fy": 525.0, "cx": 319.5, "cy": 239.5})"),
           bytes_of(R"({"depth_unit_mm": 0.1, "rate_hz": 30, "sequence": true})"),
@@ -261,6 +292,14 @@ std::vector<Bytes> mkv_seeds() {
     for (const cv::Mat1w& image : images) packets.emplace_back(image.datastart, image.dataend);
     write_raw_matroska(path, images[0].size(), 33, packets);
   }));
+  seeds.push_back(written("seed.mkv", [&](const fs::path& path) {
+    constexpr std::uint32_t kB16g = 'b' | '1' << 8 | '6' << 16 | 'g' << 24;
+    MatroskaTrack depth{"DEPTH", kB16g, images[0].size(), 16, 0, 33, {}};
+    for (const cv::Mat1w& image : images) depth.packets.emplace_back(image.datastart, image.dataend);
+    MatroskaTrack colour = depth;  // of grey, whose size is the same
+    colour.title = "COLOR";
+    write_matroska(path, {colour, depth}, {{"calibration.json", calibration_json()}});
+  }));
   return seeds;
 }
 
@@ -301,9 +340,8 @@ std::vector<Bytes> ply_seeds() {
   return {encode_ply(frame), encode_ply(frame, cv::Mat3f(12, 16, cv::Vec3f(0, 0, -1)))};
 }
 
-using Input = std::span<const std::uint8_t>;
-
 constexpr std::array kParsers = {
+    FuzzedParser{"azure", azure_seeds, read_any_calibration},
     FuzzedParser{"bag", bag_seeds, [](Input bytes) { return play_file("seed.bag", bytes); }},
     FuzzedParser{"db3", db3_seeds, [](Input bytes) { return play_file("seed.db3", bytes); }},
     FuzzedParser{"mat", mat_seeds, [](Input bytes) { return play_file("seed.mat", bytes); }},
@@ -317,6 +355,7 @@ constexpr std::array kParsers = {
     FuzzedParser{"png", png_seeds, [](Input bytes) { return decodes([&] { return decode_png(bytes); }); }},
     FuzzedParser{"poses", poses_seeds, read_any_poses},
     FuzzedParser{"results", results_seeds, read_any_results},
+    FuzzedParser{"rvl", rvl_seeds, [](Input bytes) { return decodes([&] { return read_any_rvl(bytes); }); }},
     FuzzedParser{"synthetic", uri_seeds, read_any_synthetic},
     FuzzedParser{"toml", toml_seeds, read_any_toml},
     FuzzedParser{"tum", tum_seeds, read_any_tum_list},

@@ -1,23 +1,6 @@
-// A running pipeline allocates no memory for a frame. Every call of operator new in this program is counted
-// here, including those of images, since cv::Mat allocates the header of its pixels by it.
-#include <cstdlib>
-#include <new>
-
+// A running pipeline allocates no memory for a frame.
 #include "pipeline_parts.hpp"
-
-namespace {
-std::atomic<bool> counting = false;
-std::atomic<int> allocations = 0;
-}  // namespace
-
-// Not inlined, since GCC would warn of free().
-[[gnu::noinline]] void* operator new(std::size_t size) {
-  if (counting) ++allocations;
-  if (void* memory = std::malloc(size)) return memory;
-  throw std::bad_alloc();
-}
-[[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
-[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+#include "tests/support/allocations.hpp"
 
 namespace saccade {
 namespace {
@@ -44,12 +27,11 @@ class BoxesSource : public CountingSource {
 class PipelineMemory : public ::testing::Test {
  protected:
   // The number of allocations for `frames` results after the first ones.
-  static int cost(Pipeline& pipeline, int frames) {
+  static std::int64_t cost(Pipeline& pipeline, int frames) {
     for (int i = 0; i < 100; ++i) pipeline.next();
-    counting = true;
+    const std::int64_t before = allocations();
     for (int i = 0; i < frames; ++i) pipeline.next();
-    counting = false;
-    return allocations.exchange(0);
+    return allocations() - before;
   }
 
   static PipelineOptions options(FramePolicy policy) {

@@ -4,30 +4,16 @@
 
 #include <malloc.h>
 
-#include <atomic>
 #include <cstdlib>
 #include <cstring>
 #include <limits>
-#include <new>
 
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
 #include "saliency/reference.hpp"
 #include "shapes.hpp"
-
-namespace {
-std::atomic<long> allocations{0};
-}
-
-// Counts allocations of all threads. Not inlined: compilers may remove pairs of new and delete that they see.
-[[gnu::noinline]] void* operator new(std::size_t size) {
-  ++allocations;
-  if (void* memory = std::malloc(size)) return memory;
-  throw std::bad_alloc();
-}
-[[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
-[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+#include "tests/support/allocations.hpp"
 
 namespace saccade::test {
 namespace {
@@ -93,10 +79,10 @@ TEST(Symmetry3d, AllocatesNothingAfterTheFirstFrame) {
   const RequestedOutputs outputs{.levels = true, .normals = true};
   op.compute(first, camera_for(first.size()), outputs, maps, times);
   const uchar* master = maps.master.data;
-  const long before = allocations;
+  const std::int64_t before = allocations();
   const std::size_t bytes_before = mallinfo2().uordblks + mallinfo2().hblkhd;
   op.compute(second, camera_for(second.size()), outputs, maps, times);
-  EXPECT_EQ(allocations, before);
+  EXPECT_EQ(allocations(), before);
   EXPECT_EQ(mallinfo2().uordblks + mallinfo2().hblkhd, bytes_before);
   EXPECT_EQ(maps.master.data, master);
 }

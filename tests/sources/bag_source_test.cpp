@@ -13,6 +13,7 @@
 #include "sources/open_source.hpp"
 #include "tests/support/folder_test.hpp"
 #include "tests/support/no_wait.hpp"
+#include "tests/support/subprocess.hpp"
 
 namespace saccade {
 namespace {
@@ -110,6 +111,31 @@ TEST_F(BagSourceTest, EveryContainerAndCompressionGivesTheSameFrames) {
   expect_recording(in("ros2"));
 }
 
+// A second opinion: bags by ROS 1's own library.
+TEST_F(BagSourceTest, BagsOfTheReferenceWriterAreRead) {
+  constexpr const char* kPython = "/usr/bin/python3";
+  if (run_program(kPython, {"-c", "import rosbag, sensor_msgs, numpy"}).status != 0)
+    GTEST_SKIP() << "python3-rosbag, python3-sensor-msgs or python3-numpy is not installed";
+  for (const char* compression : {"none", "bz2", "lz4"}) {
+    SCOPED_TRACE(compression);
+    const ProgramResult written =
+        run_program(kPython, {SACCADE_SOURCE_DIR "/tests/sources/write_bag.py", in("ros.bag"), compression});
+    ASSERT_EQ(written.status, 0) << written.err;
+    const auto source = open_source(in("ros.bag"));
+    EXPECT_EQ(source->info().frame_count, 3);
+    EXPECT_EQ(source->info().intrinsics.fy, 501.5);
+    EXPECT_EQ(source->info().intrinsics.cx, 8.25);
+    for (int k = 0; k < 3; ++k) {
+      Frame frame;
+      ASSERT_EQ(source->read(frame, kNoWait).status, ReadStatus::frame);
+      EXPECT_NEAR(static_cast<double>(frame.timestamp_us - 1'700'000'000'000'000), k * 1e6 / 30, 1);
+      for (int i = 0; i < 192; ++i)
+        ASSERT_EQ(frame.depth_mm(i / 16, i % 16), i == 0 ? 0.0F : static_cast<float>(1000 + 100 * k + i));
+      EXPECT_EQ(frame.colour(5, 5), cv::Vec3b(static_cast<std::uint8_t>(k), 20, 10));
+    }
+  }
+}
+
 TEST_F(BagSourceTest, OtherEncodingsAreRead) {
   const MessageWriter writer(true);
   cv::Mat1f metres(12, 16, 1.25F);
@@ -135,6 +161,83 @@ TEST_F(BagSourceTest, OtherEncodingsAreRead) {
   EXPECT_EQ(source->info().intrinsics.origin, IntrinsicsOrigin::guess);
   ASSERT_EQ(open_source(in("packed.mcap"))->read(frame, kNoWait).status, ReadStatus::frame);
   EXPECT_EQ(frame.depth_mm(5, 5), static_cast<float>(depth_image(0)(5, 5)));
+}
+
+std::vector<std::uint8_t> rvl_message(const cv::Mat1w& image) {
+  std::vector<std::uint8_t> data(12, 0);
+  for (const int size : {image.cols, image.rows})
+    for (const int shift : {0, 8, 16, 24}) data.push_back(static_cast<std::uint8_t>(size >> shift));
+  const auto packed = encode_rvl(image);
+  data.insert(data.end(), packed.begin(), packed.end());
+  return data;
+}
+
+TEST_F(BagSourceTest, DepthCompressedWithRvlIsExact) {
+  const MessageWriter writer(true);
+  std::mt19937 random(3);
+  cv::Mat1w image(48, 64);
+  for (std::uint16_t& value : image)
+    value = static_cast<std::uint16_t>(random() % 3 == 0 ? 0 : random() % 65535);
+  for (const bool empty : {false, true}) {
+    if (empty) image.setTo(0);
+    write_mcap(folder_ / "rvl.mcap",
+               {writer.compressed("/depth", 5, "16UC1; compressedDepth rvl", rvl_message(image))}, "zstd");
+    Frame frame;
+    ASSERT_EQ(open_source(in("rvl.mcap"))->read(frame, kNoWait).status, ReadStatus::frame);
+    cv::Mat1f expected;
+    image.convertTo(expected, CV_32F);
+    EXPECT_EQ(cv::norm(frame.depth_mm, expected, cv::NORM_INF), 0);
+  }
+}
+
+TEST_F(BagSourceTest, DamagedRvlIsRejectedWithTheReason) {
+  const MessageWriter writer(true);
+  const auto sound = rvl_message(depth_image(0));
+  auto cut = sound, endless = sound, long_run = sound, huge = sound;
+  cut.resize(sound.size() / 2 / 4 * 4);
+  std::fill(endless.begin() + 20, endless.end(), std::uint8_t{0xff});
+  std::fill(long_run.begin() + 20, long_run.begin() + 24, std::uint8_t{0x77});
+  std::fill(huge.begin() + 12, huge.begin() + 20, std::uint8_t{0x7f});
+  std::vector<TestMessage> messages;
+  std::int64_t stamp_ns = 0;
+  for (const auto& data : {sound, cut, endless, long_run, huge, std::vector<std::uint8_t>(13)})
+    messages.push_back(
+        writer.compressed("/depth", stamp_ns += 1'000'000, "16UC1; compressedDepth rvl", data));
+  write_plain_mcap(folder_ / "rvl.mcap", messages);
+  const auto source = open_source(in("rvl.mcap"));
+  Frame frame;
+  ASSERT_EQ(source->read(frame, kNoWait).status, ReadStatus::frame);
+  for (const char* reason : {"ends early", "does not end", "more pixels", "pixels", "too short"}) {
+    const ReadResult result = source->read(frame, kNoWait);
+    EXPECT_EQ(result.status, ReadStatus::rejected);
+    EXPECT_THAT(result.reason, HasSubstr(reason));
+  }
+}
+
+// Messages in three parts: the topics of a part may have other numbers, or be missing.
+TEST_F(BagSourceTest, ASplitRecordingIsOne) {
+  const auto all = recording(true);
+  for (const bool database : {false, true}) {
+    const std::string folder = database ? "split_db3" : "split_mcap";
+    fs::create_directory(folder_ / folder);
+    write_file(folder_ / folder / "metadata.yaml", std::string_view("rosbag2_bagfile_information:\n"));
+    const auto part = [&](int number) {
+      return folder_ / folder / ("walk_" + std::to_string(number) + (database ? ".db3" : ".mcap"));
+    };
+    const auto write = [&](int number, std::ptrdiff_t begin, std::ptrdiff_t end) {
+      const std::vector<TestMessage> messages(all.begin() + begin, all.begin() + end);
+      database ? write_db3(part(number), messages) : write_mcap(part(number), messages, "lz4");
+    };
+    write(9, 0, 3);
+    write(10, 3, 7);
+    write(11, 7, std::ssize(all));
+    expect_recording(in(folder));
+    // Without one of them, the others.
+    write_file(part(10), std::string_view("not a bag"));
+    const auto source = open_source(in(folder));
+    EXPECT_EQ(source->info().frame_count, 2);
+    EXPECT_THAT(source->info().notes, Contains(HasSubstr("walk_10")));
+  }
 }
 
 TEST_F(BagSourceTest, TopicsAreChosenByNameOrByTheUser) {

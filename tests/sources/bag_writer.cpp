@@ -183,6 +183,42 @@ void mcap_end(Bytes& out) {
   put_bytes(out, kMcapMagic);
 }
 
+class RvlWriter {
+ public:
+  static std::vector<std::uint8_t> encode(const cv::Mat1w& image) {
+    RvlWriter writer;
+    std::uint32_t before = 0;
+    for (auto pixel = image.begin(); pixel != image.end();) {
+      const auto other = std::find_if(pixel, image.end(), [](std::uint16_t value) { return value != 0; });
+      const auto zero = std::find(other, image.end(), std::uint16_t{0});
+      writer.put(static_cast<std::uint32_t>(other - pixel));
+      writer.put(static_cast<std::uint32_t>(zero - other));
+      for (pixel = other; pixel != zero; ++pixel) {
+        const auto difference = static_cast<std::int32_t>(*pixel - before);
+        writer.put(static_cast<std::uint32_t>(difference) << 1 ^
+                   static_cast<std::uint32_t>(difference >> 31));
+        before = *pixel;
+      }
+    }
+    while (writer.groups_ % 8 != 0) writer.put_group(0);
+    return writer.bytes_;
+  }
+
+ private:
+  void put(std::uint32_t value) {
+    for (; value > 7; value >>= 3) put_group((value & 7U) | 8U);
+    put_group(value);
+  }
+  void put_group(std::uint32_t group) {
+    word_ = word_ << 4 | group;
+    if (++groups_ % 8 == 0)
+      for (const int shift : {0, 8, 16, 24}) bytes_.push_back(static_cast<std::uint8_t>(word_ >> shift));
+  }
+
+  std::vector<std::uint8_t> bytes_;
+  std::uint32_t word_ = 0, groups_ = 0;
+};
+
 }  // namespace
 
 TestMessage MessageWriter::image(const std::string& topic, std::int64_t stamp_ns, const cv::Mat& image,
@@ -310,5 +346,7 @@ void write_db3(const std::filesystem::path& path, const std::vector<TestMessage>
   }
   sqlite3_close(database);
 }
+
+std::vector<std::uint8_t> encode_rvl(const cv::Mat1w& image) { return RvlWriter::encode(image); }
 
 }  // namespace saccade

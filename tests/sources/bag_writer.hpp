@@ -45,4 +45,7 @@ void write_mcap(const std::filesystem::path& path, const std::vector<TestMessage
 void write_plain_mcap(const std::filesystem::path& path, const std::vector<TestMessage>& messages);
 void write_db3(const std::filesystem::path& path, const std::vector<TestMessage>& messages);
 
+/// Depth as RVL, by the description of the format; padded to whole words.
+std::vector<std::uint8_t> encode_rvl(const cv::Mat1w& image);
+
 }  // namespace saccade

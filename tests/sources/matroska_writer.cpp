@@ -1,6 +1,7 @@
 #include "matroska_writer.hpp"
 
 #include <bit>
+#include <map>
 #include <string_view>
 
 #include "core/file.hpp"
@@ -40,42 +41,82 @@ Bytes joined(std::initializer_list<Bytes> parts) {
   return out;
 }
 
-void write(const std::filesystem::path& path, const Bytes& codec, const Bytes& colour_space, cv::Size size,
-           int period_ms, const std::vector<Bytes>& packets) {
+Bytes fourcc_codec(std::uint32_t fourcc, cv::Size size, int bits) {
+  const Bytes header =
+      joined({little_endian(40, 4), little_endian(static_cast<std::uint64_t>(size.width), 4),
+              little_endian(static_cast<std::uint64_t>(size.height), 4), little_endian(1, 2),
+              little_endian(static_cast<std::uint64_t>(bits), 2), little_endian(fourcc, 4), Bytes(20)});
+  return joined({text(0x86, "V_MS/VFW/FOURCC"), element(0x63A2, header)});
+}
+
+Bytes track(std::uint64_t index, const Bytes& codec, const Bytes& colour_space, cv::Size size,
+            int period_ms) {
   const Bytes video = joined({number(0xB0, static_cast<std::uint64_t>(size.width)),
                               number(0xBA, static_cast<std::uint64_t>(size.height)), colour_space});
-  const Bytes track =
-      joined({number(0xD7, 1), number(0x73C5, 1), number(0x83, 1), codec,
-              number(0x23E383, 1'000'000U * static_cast<std::uint64_t>(period_ms)), element(0xE0, video)});
-  Bytes clusters;
-  for (std::size_t k = 0; k < packets.size(); ++k) {
-    Bytes block = {0x81, 0, 0, 0x80};  // track 1, at the cluster's time, a key frame
-    add(block, packets[k]);
-    add(clusters, element(0x1F43B675, joined({number(0xE7, k * static_cast<std::uint64_t>(period_ms)),
-                                              element(0xA3, block)})));
-  }
+  return joined({number(0xD7, index), number(0x73C5, index), number(0x83, 1), codec,
+                 number(0x23E383, 1'000'000U * static_cast<std::uint64_t>(period_ms)), element(0xE0, video)});
+}
+
+// A packet as a cluster of its own, a key frame.
+Bytes cluster(std::uint8_t track, std::uint64_t time_ms, const Bytes& packet) {
+  Bytes block = {static_cast<std::uint8_t>(0x80U | track), 0, 0, 0x80};
+  add(block, packet);
+  return element(0x1F43B675, joined({number(0xE7, time_ms), element(0xA3, block)}));
+}
+
+// `tracks`: TrackEntry elements; `rest`: what follows them.
+void write(const std::filesystem::path& path, const Bytes& tracks, const Bytes& rest) {
   const Bytes info = joined({number(0x2AD7B1, 1'000'000), text(0x4D80, "saccade"), text(0x5741, "saccade")});
-  const Bytes file = joined(
-      {element(0x1A45DFA3, joined({text(0x4282, "matroska"), number(0x4287, 4), number(0x4285, 2)})),
-       element(0x18538067,
-               joined({element(0x1549A966, info), element(0x1654AE6B, element(0xAE, track)), clusters}))});
-  write_file(path, file);
+  write_file(
+      path,
+      joined({element(0x1A45DFA3, joined({text(0x4282, "matroska"), number(0x4287, 4), number(0x4285, 2)})),
+              element(0x18538067, joined({element(0x1549A966, info), element(0x1654AE6B, tracks), rest}))}));
+}
+
+void write_one_track(const std::filesystem::path& path, const Bytes& codec, const Bytes& colour_space,
+                     cv::Size size, int period_ms, const std::vector<Bytes>& packets) {
+  Bytes clusters;
+  for (std::size_t k = 0; k < packets.size(); ++k)
+    add(clusters, cluster(1, k * static_cast<std::uint64_t>(period_ms), packets[k]));
+  write(path, element(0xAE, track(1, codec, colour_space, size, period_ms)), clusters);
 }
 
 }  // namespace
 
 void write_matroska(const std::filesystem::path& path, std::uint32_t fourcc, cv::Size size, int bits,
                     int period_ms, const std::vector<Bytes>& packets) {
-  const Bytes header =
-      joined({little_endian(40, 4), little_endian(static_cast<std::uint64_t>(size.width), 4),
-              little_endian(static_cast<std::uint64_t>(size.height), 4), little_endian(1, 2),
-              little_endian(static_cast<std::uint64_t>(bits), 2), little_endian(fourcc, 4), Bytes(20)});
-  write(path, joined({text(0x86, "V_MS/VFW/FOURCC"), element(0x63A2, header)}), {}, size, period_ms, packets);
+  write_one_track(path, fourcc_codec(fourcc, size, bits), {}, size, period_ms, packets);
 }
 
 void write_raw_matroska(const std::filesystem::path& path, cv::Size size, int period_ms,
                         const std::vector<Bytes>& packets) {
-  write(path, text(0x86, "V_UNCOMPRESSED"), element(0x2EB524, {'Y', '1', 0, 16}), size, period_ms, packets);
+  write_one_track(path, text(0x86, "V_UNCOMPRESSED"), element(0x2EB524, {'Y', '1', 0, 16}), size, period_ms,
+                  packets);
+}
+
+void write_matroska(const std::filesystem::path& path, const std::vector<MatroskaTrack>& tracks,
+                    const std::vector<MatroskaAttachment>& attachments) {
+  Bytes entries, files, rest;
+  std::multimap<int, Bytes> clusters;  // by time
+  for (std::size_t i = 0; i < tracks.size(); ++i) {
+    const MatroskaTrack& one = tracks[i];
+    add(entries, element(0xAE, joined({track(i + 1, fourcc_codec(one.fourcc, one.size, one.bits), {},
+                                             one.size, one.period_ms),
+                                       text(0x536E, one.title)})));
+    int time_ms = one.start_ms;
+    for (const Bytes& packet : one.packets) {
+      clusters.emplace(
+          time_ms, cluster(static_cast<std::uint8_t>(i + 1), static_cast<std::uint64_t>(time_ms), packet));
+      time_ms += one.period_ms;
+    }
+  }
+  for (std::size_t i = 0; i < attachments.size(); ++i)
+    add(files,
+        element(0x61A7, joined({text(0x466E, attachments[i].name), text(0x4660, "application/octet-stream"),
+                                number(0x46AE, i + 1), text(0x465C, attachments[i].content)})));
+  if (!files.empty()) rest = element(0x1941A469, files);
+  for (const auto& [time_ms, bytes] : clusters) add(rest, bytes);
+  write(path, entries, rest);
 }
 
 }  // namespace saccade

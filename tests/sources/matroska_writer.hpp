@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include <opencv2/core.hpp>
@@ -16,5 +17,25 @@ void write_matroska(const std::filesystem::path& path, std::uint32_t fourcc, cv:
 /// The same for gray16le pixels, not compressed.
 void write_raw_matroska(const std::filesystem::path& path, cv::Size size, int period_ms,
                         const std::vector<std::vector<std::uint8_t>>& packets);
+
+/// One of several video tracks, whose codec Matroska has no name for.
+struct MatroskaTrack {
+  std::string title;
+  std::uint32_t fourcc = 0;
+  cv::Size size;
+  int bits = 16;
+  int start_ms = 0, period_ms = 33;
+  std::vector<std::vector<std::uint8_t>> packets;
+};
+
+struct MatroskaAttachment {
+  std::string name;
+  std::string content;
+};
+
+/// Writes tracks and attached files, as the recorder of Azure Kinect does. Packets are in the order of their
+/// times.
+void write_matroska(const std::filesystem::path& path, const std::vector<MatroskaTrack>& tracks,
+                    const std::vector<MatroskaAttachment>& attachments);
 
 }  // namespace saccade

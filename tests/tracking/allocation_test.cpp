@@ -1,28 +1,11 @@
-// Attention over time allocates no memory for a frame, once it knows the scene. Every call of operator new on
-// this thread is counted, including those of images, since cv::Mat allocates the header of its pixels by it.
-// Not counted: the odometry, which is OpenCV's and works on a thread of its own.
-#include <cstdlib>
-#include <new>
-
+// Attention over time allocates no memory for a frame, once it knows the scene. Not counted: the odometry,
+// which is OpenCV's and works on a thread of its own.
 #include <gtest/gtest.h>
 
+#include "tests/support/allocations.hpp"
 #include "tracking/attention_tracker.hpp"
 #include "tracking/frame_follower.hpp"
 #include "watched_scene.hpp"
-
-namespace {
-thread_local bool counting = false;
-thread_local int allocations = 0;
-}  // namespace
-
-// Not inlined, since GCC would warn of free().
-[[gnu::noinline]] void* operator new(std::size_t size) {
-  if (counting) ++allocations;
-  if (void* memory = std::malloc(size)) return memory;
-  throw std::bad_alloc();
-}
-[[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
-[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 
 namespace saccade {
 namespace {
@@ -36,18 +19,19 @@ TEST(TrackingMemory, NothingIsAllocatedPerFrame) {
   AttentionTracker tracker(20, 0, {});
   Attention attention;
   constexpr int kKnown = 90;  // frames after which everything in view was looked at once or is remembered
+  std::int64_t allocated = 0;
   for (int k = 0; k < kKnown + 60; ++k) {
     Frame next = frame;
     next.index = k;
     next.timestamp_us = k * 100'000;
     follower.start(next);
     follower.wait();
-    counting = k >= kKnown;
+    const std::int64_t before = allocations_of_this_thread();
     tracker.attend(next, map, follower.surfaces(), follower.step(), attention);
-    counting = false;
+    if (k >= kKnown) allocated += allocations_of_this_thread() - before;
   }
   EXPECT_GT(attention.fixations.size(), 3U);
-  EXPECT_EQ(allocations, 0);
+  EXPECT_EQ(allocated, 0);
 }
 
 }  // namespace

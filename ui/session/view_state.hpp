@@ -42,7 +42,7 @@ struct ViewState {
   bool sidebar = true;
   double sidebar_width = 340;  ///< px at scale 1
   std::array<bool, kSidebarPanels> open = {true, true, false, false, false, false};
-  cv::Size window{1280, 800};
+  cv::Size window;     ///< px; empty = as large as the text needs
   std::string folder;  ///< for recordings and snapshots; empty = the working directory, or the home folder
   std::vector<std::string> recent;  ///< sources, newest first
 

@@ -162,7 +162,7 @@ void apply_view_state(ViewState& state, const std::string& text) {
       read(*open, std::string(kPanelNames[i]).c_str(), state.open[i]);
   if (const auto window = json.find("window"); window != json.end() && window->is_array() &&
                                                window->size() == 2 && (*window)[0].is_number_integer() &&
-                                               (*window)[1].is_number_integer())
+                                               (*window)[1].is_number_integer() && (*window)[0] > 0)
     state.window = {std::clamp((*window)[0].get<int>(), 480, 16384),
                     std::clamp((*window)[1].get<int>(), 360, 16384)};
   if (const auto folder = json.find("folder"); folder != json.end() && folder->is_string())

@@ -24,7 +24,7 @@ Viewer::Viewer(ViewState state, ViewerOptions options, Session::Open open_functi
                DeviceWatch::List list_sensors, SensorAdvice::Ask ask_advice)
     : state_(std::move(state)),
       options_(std::move(options)),
-      window_("Saccade", options_.size.value_or(state_.window), !options_.size),
+      window_("Saccade", options_.size.value_or(state_.window), !options_.size, state_.ui_scale),
       session_(
           std::move(open_function),
           [this] {

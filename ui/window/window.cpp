@@ -55,6 +55,17 @@ std::optional<Key> key_pressed(int code, int scan) {
   return key_of(static_cast<char>(character));
 }
 
+// What a window has where text and buttons are of this scale.
+cv::Size size_at(double scale) {
+  if (GLFWmonitor* monitor = scale > 0 ? nullptr : glfwGetPrimaryMonitor(); monitor != nullptr) {
+    float x = 1, y = 1;
+    glfwGetMonitorContentScale(monitor, &x, &y);
+    scale = static_cast<double>(std::max(x, y));
+  }
+  scale = std::max(scale, 1.0);
+  return {cvRound(1280 * scale), cvRound(800 * scale)};
+}
+
 // Without the bars of the desktop, where GLFW knows them.
 cv::Size size_on_screen(cv::Size size) {
   GLFWmonitor* monitor = glfwGetPrimaryMonitor();
@@ -68,7 +79,7 @@ cv::Size size_on_screen(cv::Size size) {
 
 }  // namespace
 
-Window::Window(const std::string& title, cv::Size size, bool fit) {
+Window::Window(const std::string& title, cv::Size size, bool fit, double scale) {
   if (glfwInit() != GLFW_TRUE)
     throw failed("no display", glfw_reason(),
                  "start it in a desktop session, or use saccade run, which needs no window");
@@ -78,6 +89,7 @@ Window::Window(const std::string& title, cv::Size size, bool fit) {
   glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
   glfwWindowHintString(GLFW_X11_CLASS_NAME, "saccade");
   glfwWindowHintString(GLFW_X11_INSTANCE_NAME, "saccade");  // GLFW uses both or none
+  if (size.empty()) size = size_at(scale);
   if (fit) size = size_on_screen(size);
   window_ = glfwCreateWindow(size.width, size.height, title.c_str(), nullptr, nullptr);
   if (window_ == nullptr) {

@@ -19,9 +19,9 @@ namespace saccade {
 /// on it. One at a time; all calls on that thread, wake() excepted.
 class Window {
  public:
-  /// `fit`: no larger than the screen has room for. Throws Error (failed) where there is no display or no
-  /// OpenGL 3.3.
-  Window(const std::string& title, cv::Size size, bool fit);
+  /// `size`: px; empty = 1280 x 800 times `scale`, that of text and buttons (0 = the screen's own). `fit`: no
+  /// larger than the screen has room for. Throws Error (failed) where there is no display or no OpenGL 3.3.
+  Window(const std::string& title, cv::Size size, bool fit, double scale);
   ~Window();
   Window(const Window&) = delete;
   Window& operator=(const Window&) = delete;

@@ -133,6 +133,18 @@ TEST_F(ViewerTest, TheScreenshotShowsTheFrameAtAnyScale) {
   }
 }
 
+// Of this screen, 1920 x 1200; text of twice the size would need more than there is.
+TEST_F(ViewerTest, TheFirstWindowIsAsLargeAsItsTextNeeds) {
+  for (const auto& [scale, size] :
+       {std::pair("1", cv::Size(1280, 800)), std::pair("1.4", cv::Size(1792, 1120)),
+        std::pair("2", cv::Size(1920, 1200))}) {
+    keep_state("{}");
+    ASSERT_EQ(run({kTable, "--frames", "1", "--ui-scale", scale, "--screenshot", in("shot.png")}), 0);
+    EXPECT_EQ(decode_png(read_file(in("shot.png"))).size(), size) << scale;
+    std::filesystem::remove(in("shot.png"));
+  }
+}
+
 TEST_F(ViewerTest, PlaysTunesComparesAndQuits) {
   keep_state(R"({"welcome": false})");
   start({"--size", "1280x800"});  // without SOURCE: the bundled recording
