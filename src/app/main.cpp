@@ -69,7 +69,7 @@ int run_program(int argc, char** argv) {
   } catch (const CLI::Success& success) {  // --help
     std::ostringstream text;
     app.exit(success, text);
-    saccade::print_text(text.str());
+    saccade::print_text(text.str(), saccade::Reader::may_leave);
     return static_cast<int>(ExitStatus::done);
   } catch (const CLI::ParseError& error) {
     return report(std::string(error.what()) + " (see saccade --help)", ExitStatus::usage);

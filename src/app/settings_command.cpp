@@ -30,7 +30,7 @@ void add_settings_command(CLI::App& app, std::function<void()>& action) {
       const std::string text = state->all_defaults ? std::string(kDefaultToml)
                                : state->paper      ? std::string(kPaperToml)
                                                    : settings_toml(settings);
-      print_text(text);
+      print_text(text, Reader::may_leave);
     };
   });
 }

@@ -17,12 +17,13 @@
 namespace saccade {
 namespace {
 
-void print(std::string_view text) {
+void print(std::string_view text, Reader reader = Reader::stays) {
   errno = 0;
   const bool written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
-  if (!written || std::fflush(stdout) != 0)
-    throw failed(std::string("cannot write: ") + std::strerror(errno), "standard output",
-                 "is the disk full, or the reader gone?");
+  if (written && std::fflush(stdout) == 0) return;
+  if (errno == EPIPE && reader == Reader::may_leave) return;
+  throw failed(std::string("cannot write: ") + std::strerror(errno), "standard output",
+               "is the disk full, or the reader gone?");
 }
 
 }  // namespace
@@ -36,7 +37,7 @@ void open_standard_streams() {
     }
 }
 
-void print_text(std::string_view text) { print(printable_lines(text)); }
+void print_text(std::string_view text, Reader reader) { print(printable_lines(text), reader); }
 
 void print_json(const nlohmann::ordered_json& json, int indent) { print(dump(json, indent) + "\n"); }
 

@@ -41,7 +41,7 @@ void add_version_option(CLI::App& app, std::function<void()>& action) {
           if (*json)
             print_json(version_info(), 2);
           else
-            print_text(std::string("saccade ") + kVersion + "\n");
+            print_text(std::string("saccade ") + kVersion + "\n", Reader::may_leave);
         };
       },
       "print the version and quit");

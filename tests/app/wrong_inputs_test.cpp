@@ -102,6 +102,28 @@ TEST_F(WrongInputs, Outputs) {
   EXPECT_EQ(text("precious"), "precious");
 }
 
+// saccade --help | head: the reader is gone before anything is written. Who reads results should get them.
+TEST_F(WrongInputs, AReaderOfHelpMayLeave) {
+  ASSERT_EQ(shell("$P record '" + kScene + "' a.oni --quiet").status, kDone);
+  const auto read_nothing = [&](const char* command) {
+    ASSERT_EQ(shell(fmt::format("{{ sleep 0.2; $P {} 2>errors; echo $? >status; }} | true", command)).status,
+              0);
+  };
+  for (const char* command : {"--help", "run --help", "--version", "settings --default"}) {
+    SCOPED_TRACE(command);
+    read_nothing(command);
+    EXPECT_EQ(text("status"), "0\n");
+    EXPECT_EQ(text("errors"), "");
+  }
+  for (const char* command : {"oni info a.oni", "run a.oni --levels 0..2 --out o --json"}) {
+    SCOPED_TRACE(command);
+    read_nothing(command);
+    EXPECT_EQ(text("status"), "1\n");
+    EXPECT_THAT(text("errors"), HasSubstr("Broken pipe: standard output"));
+  }
+  EXPECT_TRUE(fs::exists(folder_ / "o/manifest.json"));
+}
+
 TEST_F(WrongInputs, ResultsThatAreMerged) {
   put("r/results.jsonl", "{}\n");
   expect(kUnreadable, "results.jsonl:1", "$P eval --merge r --out o");
