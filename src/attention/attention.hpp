@@ -25,7 +25,7 @@ struct ProtoObject {
 /// One attention point.
 struct Fixation {
   int row = 0, col = 0;      ///< pixel of level 0
-  float saliency = 0;        ///< of the master map at that pixel
+  float saliency = 0;        ///< of the master map at that pixel; over time, of its object
   cv::Point3f position_mm;   ///< the point there, camera frame; (0,0,0) = no reading there
   ProtoObject proto_object;  ///< pixels = 0: none was grown
   /// Probability that the point lies on an object, 0..1; none: the selector does not estimate it (`wta`).

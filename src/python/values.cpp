@@ -27,7 +27,8 @@ void define_fixation(py::module_& module) {
   py::class_<Fixation>(module, "Fixation", "One attention point.")
       .def_readonly("row", &Fixation::row, "Of the pixel, from the top, from 0.")
       .def_readonly("col", &Fixation::col, "Of the pixel, from the left, from 0.")
-      .def_readonly("saliency", &Fixation::saliency, "The map at that pixel.")
+      .def_readonly("saliency", &Fixation::saliency,
+                    "The map at that pixel; in a sequence, that of its object.")
       .def_property_readonly(
           "position_mm", [](const Fixation& f) { return triple(f.position_mm); },
           "(x, y, z) in camera frame: right, down, forward; (0, 0, 0) = no reading there.")

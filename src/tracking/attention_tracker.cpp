@@ -63,7 +63,7 @@ void AttentionTracker::attend(const Frame& frame, const cv::Mat1f& saliency, con
   const AttentionOrder::View view{frame, saliency, grid, segments, step.to_world, from_world, seconds, first};
   const auto& chosen = order_.choose(view, fixations_, shapes_, proto_objects_, objects_, memory_);
   objects_.learn(grid, step.to_world);
-  judge(surfaces, seconds, chosen);
+  judge(view, surfaces, chosen);
   report(view, chosen, attention);
 
   attention.sequence = SequenceState{std::nullopt, step.cut, step.to_world};
@@ -71,22 +71,33 @@ void AttentionTracker::attend(const Frame& frame, const cv::Mat1f& saliency, con
   objects_.forget(frame.timestamp_us, memory_.owner());
 }
 
-// The mean goes over the same time as that of the evidence.
-void AttentionTracker::judge(const FrameSurfaces& surfaces, double seconds,
+// The means go over the same time as that of the evidence.
+void AttentionTracker::judge(const AttentionOrder::View& view, const FrameSurfaces& surfaces,
                              const std::vector<std::size_t>& chosen) {
   float strongest = 0;
-  const auto least = static_cast<float>(SurfaceMemory::share_of(seconds));
+  const auto least = static_cast<float>(SurfaceMemory::share_of(view.seconds));
   for (const std::size_t slot : chosen) {
     TrackedObject& object = objects_.slots()[slot];
     const float saliency = smooth_[static_cast<std::size_t>(object.point_cell)];
     if (slot == chosen.front()) strongest = saliency;
     const float relative = strongest > 0 ? saliency / strongest : 1;
     const float share = std::max(1 / static_cast<float>(++object.times_judged), least);
+    object.mean_saliency += share * (saliency_of(view, object) - object.mean_saliency);
     object.mean_confidence +=
         share * (surfaces.confidence_at(object.point_cell, relative) - object.mean_confidence);
     if (object.times_judged == 1 || std::abs(object.mean_confidence - object.confidence) > kConfidenceMargin)
       object.confidence = object.mean_confidence;
   }
+}
+
+// The map at the strongest cell of the object; in the first frame that is the cell that has won.
+float AttentionTracker::saliency_of(const AttentionOrder::View& view, const TrackedObject& object) const {
+  int strongest = object.point_cell;
+  const auto evidence = [&](int cell) { return memory_.mean()[static_cast<std::size_t>(cell)]; };
+  if (!view.first)
+    for (const int cell : object.cells)
+      if (evidence(cell) > evidence(strongest)) strongest = cell;
+  return view.saliency(proto_objects_.fixated_pixel(view.saliency, strongest));
 }
 
 void AttentionTracker::report(const AttentionOrder::View& view, const std::vector<std::size_t>& chosen,
@@ -101,6 +112,7 @@ void AttentionTracker::report(const AttentionOrder::View& view, const std::vecto
     Fixation fixation = fixation_at(view.saliency, frame.depth_mm, frame.intrinsics, pixel.y, pixel.x);
     const int rank = static_cast<int>(attention.fixations.size()) + 1;
     fixation.proto_object = proto_objects_.paint(object.cells, attention.masks, rank);
+    fixation.saliency = object.mean_saliency;
     fixation.confidence = object.confidence;
     fixation.id = object.id;
     fixation.age_frames = object.frames_seen;

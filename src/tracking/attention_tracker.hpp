@@ -39,17 +39,27 @@ class AttentionTracker {
   /// Objects, their order and the gaze stay.
   void forget_evidence();
 
+  /// The id that the next new object gets.
+  int next_id() const { return objects_.next_id(); }
+
+  /// Before a frame that is a cut: its objects are numbered from `first`, >= 1. So two trackers of the same
+  /// frames number alike, and a sequence that begins again has the ids that it had.
+  void number_from(int first) { objects_.number_from(first); }
+
   /// Chooses the attention points of the next frame. `surfaces` are the frame's, `step` is how the camera
   /// has moved (CameraMotion). Times of frames must not decrease without a cut. `saliency` and
   /// `attention` as in AttentionSelector::select(); besides, sets each fixation's id, age and place in the
-  /// world, and Attention::sequence.
+  /// world, and Attention::sequence. A fixation's saliency is that of its object: the map at the object's
+  /// strongest place, averaged over time as the evidence.
   void attend(const Frame& frame, const cv::Mat1f& saliency, const FrameSurfaces& surfaces,
               const CameraStep& step, Attention& attention);
 
   const ObjectMemory& objects() const { return objects_; }
 
  private:
-  void judge(const FrameSurfaces& surfaces, double seconds, const std::vector<std::size_t>& chosen);
+  void judge(const AttentionOrder::View& view, const FrameSurfaces& surfaces,
+             const std::vector<std::size_t>& chosen);
+  float saliency_of(const AttentionOrder::View& view, const TrackedObject& object) const;
   void report(const AttentionOrder::View& view, const std::vector<std::size_t>& chosen, Attention& attention);
   cv::Point point_of(const AttentionOrder::View& view, const TrackedObject& object) const;
   void look(std::int64_t time_us, const std::vector<std::size_t>& chosen, SequenceState& sequence);

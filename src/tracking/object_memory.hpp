@@ -11,7 +11,8 @@
 namespace saccade {
 
 /// The objects that are remembered, and where each is in the present frame. An object keeps its slot while it
-/// is remembered; SurfaceMemory::owner() names it by owner_of(slot). Ids are never used twice.
+/// is remembered; SurfaceMemory::owner() names it by owner_of(slot). Ids are never used twice,
+/// unless number_from() says so.
 /// Thread safety: one call at a time per object.
 class ObjectMemory {
  public:
@@ -34,6 +35,10 @@ class ObjectMemory {
   /// A new candidate, in a slot that may have been another's. May move the slots.
   TrackedObject& add();
   void give_id(TrackedObject& object) { object.id = next_id_++; }
+  int next_id() const { return next_id_; }
+
+  /// Later ids count from `first`, >= 1; no object that is remembered may have such an id.
+  void number_from(int first) { next_id_ = first; }
 
   static int owner_of(std::size_t slot) { return static_cast<int>(slot) + 1; }
   int owner_of(const TrackedObject& object) const {

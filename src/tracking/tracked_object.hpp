@@ -39,8 +39,9 @@ struct TrackedObject {
   float strength = 0;    ///< value with which it was last chosen
   float confidence = 0;  ///< as reported; follows its mean only if that differs by a margin
   float mean_confidence = 0;
-  int times_judged = 0;   ///< over how many frames mean_confidence goes
-  bool appeared = false;  ///< came into a place that was seen without it
+  float mean_saliency = 0;  ///< over time, of the map at its strongest place
+  int times_judged = 0;     ///< over how many frames these means go
+  bool appeared = false;    ///< came into a place that was seen without it
 
   // How long something has spoken for a change that is made only if it persists
   int times_chosen = 0;       ///< of a candidate

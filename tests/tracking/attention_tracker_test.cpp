@@ -201,6 +201,40 @@ TEST_F(AttentionTrackerTest, AfterACutIdsGoOnCounting) {
   }
 }
 
+TEST_F(AttentionTrackerTest, ASequenceThatBeginsAgainMayHaveItsIdsAgain) {
+  watch({});
+  see(0);
+  const std::map<int, int> before = ids();
+  see(1);
+  tracker_->number_from(1);
+  see(0);
+  EXPECT_TRUE(attention_.sequence->cut);
+  EXPECT_EQ(ids(), before);
+}
+
+// The point stays on one side of the object while the map's hill goes to the other: the map is 0 there.
+TEST_F(AttentionTrackerTest, TheSaliencyReportedIsThatOfTheObject) {
+  watch({.noise = false}, 1);
+  const Fixation first = see(0).fixations.front();
+  const int label = label_of(first);
+  ASSERT_NE(label, 0);
+  for (int k = 1; k < 6; ++k) {
+    frame_ = &scene_->frame(k);
+    cv::Mat1f map(frame_->size(), 0.0F);
+    for (int r = 0; r < map.rows; ++r)
+      for (int c = 0; c < map.cols; ++c)
+        if (frame_->truth.labels(r, c) == label && std::hypot(r - first.row, c - first.col) > 12)
+          map(r, c) = first.saliency;
+    follower_->start(*frame_);
+    follower_->wait();
+    tracker_->attend(*frame_, map, follower_->surfaces(), follower_->step(), attention_);
+    const Fixation& now = attention_.fixations.front();
+    ASSERT_EQ(now.id, first.id);
+    EXPECT_EQ(map(now.row, now.col), 0) << k;
+    EXPECT_NEAR(now.saliency, first.saliency, 0.1F * first.saliency) << k;
+  }
+}
+
 TEST_F(AttentionTrackerTest, AGapInTimeIsNoCutWhereTheSceneIsTheSame) {
   watch({});
   for (int k = 0; k < 6; ++k) see(k);

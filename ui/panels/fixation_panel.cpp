@@ -35,7 +35,7 @@ constexpr std::array<Column, 7> kColumns = {{
     {"z", "Millimetres in front of the camera",
      [](const Fixation& f) { return static_cast<double>(f.position_mm.z); }},
     {"size", "Longest side of the proto-object's box, mm; of the selector proto only", largest_extent},
-    {"saliency", "Of the map at the fixation's pixel",
+    {"saliency", "Of the map at the fixation's pixel or, over time, of its object",
      [](const Fixation& f) { return static_cast<double>(f.saliency); }},
     {"conf.",
      "Confidence: how probable it is that the fixation lies on an object; of the selector proto only",

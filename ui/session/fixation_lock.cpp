@@ -7,7 +7,10 @@ namespace {
 
 // Relative to the greatest distance that counts as the same; above 1 = another fixation.
 double difference(const Fixation& a, const Fixation& b) {
-  if (a.id != 0 && b.id != 0) return a.id == b.id ? 0 : 2;
+  if (a.id != 0 && b.id != 0) {
+    if (a.id != b.id) return 2;
+    if (b.age_frames >= a.age_frames) return 0;  // else the sequence has begun again, and ids with it
+  }
   if (a.position_mm.z > 0 && b.position_mm.z > 0)
     return cv::norm(a.position_mm - b.position_mm) / FixationLock::kNearest_mm;
   return std::hypot(a.row - b.row, a.col - b.col) / FixationLock::kNearest_px;

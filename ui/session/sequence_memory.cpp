@@ -1,5 +1,7 @@
 #include "ui/session/sequence_memory.hpp"
 
+#include <algorithm>
+
 namespace saccade {
 
 void SequenceMemory::next_frame() {
@@ -19,6 +21,7 @@ void SequenceMemory::attend(const FrameFollower& follower, std::int64_t number, 
   now_.tracker.configure(settings.fixations, settings.min_confidence, settings);
   CameraStep step = follower.step();
   if (now_.number != 0 && !follows(number)) step.cut = true;
+  if (step.cut) now_.tracker.number_from(first_id_after_cut(other, result.frame));
   now_.tracker.attend(result.frame, result.maps.master, follower.surfaces(), step, result.attention);
   double largest = 0;
   cv::minMaxLoc(computed.smooth, nullptr, &largest);
@@ -26,6 +29,13 @@ void SequenceMemory::attend(const FrameFollower& follower, std::int64_t number, 
                                    settings.return_after_s);
   now_.settings = settings;
   now_.number = number;
+  now_.index = result.frame.index;
+}
+
+// The other side may have computed this frame already, but not its before_.
+int SequenceMemory::first_id_after_cut(const SequenceMemory& other, const Frame& frame) const {
+  if (frame.index <= std::max(before_.index, other.before_.index)) return 1;
+  return std::max(before_.tracker.next_id(), other.before_.tracker.next_id());
 }
 
 }  // namespace saccade

@@ -21,7 +21,9 @@ class SequenceMemory {
 
   /// Chooses the attention points of a frame that has its map, and sets their marks. `follower`: has followed
   /// it. number: counts the frames that were followed, from 1; a memory that has missed one goes on from
-  /// that of the other side or, if that has missed it too, begins again.
+  /// that of the other side or, if that has missed it too, begins again. After a cut both sides number their
+  /// objects from the same id: 1 if the source went back (a loop), which begins the sequence again, else the
+  /// next that neither has used.
   void attend(const FrameFollower& follower, std::int64_t number, const SequenceMemory& other,
               Computed& computed);
 
@@ -29,10 +31,11 @@ class SequenceMemory {
   struct State {
     AttentionTracker tracker;
     MarkHistory marks{};
-    Settings settings{};  // of its last map
-    std::int64_t number = 0;
+    Settings settings{};                  // of its last map
+    std::int64_t number = 0, index = -1;  // of the last frame, followed and in the source
   };
 
+  int first_id_after_cut(const SequenceMemory& other, const Frame& frame) const;
   bool follows(std::int64_t number) const { return before_.number + 1 == number; }
 
   State before_, now_;

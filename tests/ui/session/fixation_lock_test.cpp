@@ -34,6 +34,17 @@ TEST(FixationLock, OverTimeTheIdCounts) {
   EXPECT_EQ(lock.find({other}), -1);
 }
 
+TEST(FixationLock, AnIdThatIsYoungerThanItWasMayBeAnotherObject) {
+  FixationLock lock;
+  Fixation old = at(0, 0, 1000), elsewhere = at(900, 0, 1000), same_place = at(10, 0, 1000);
+  old.id = elsewhere.id = same_place.id = 3;
+  old.age_frames = 50;
+  elsewhere.age_frames = same_place.age_frames = 1;
+  lock.lock(old);
+  EXPECT_EQ(lock.find({elsewhere}), -1);
+  EXPECT_EQ(lock.find({same_place}), 0);
+}
+
 TEST(FixationLock, WithoutDepthThePixelsCount) {
   FixationLock lock;
   lock.lock(at(0, 0, 0, 100));

@@ -342,5 +342,31 @@ TEST_F(SequenceTest, BothSidesOfAComparisonHaveTheSameIds) {
   }
 }
 
+TEST_F(SequenceTest, ASequenceThatBeginsAgainHasTheSameIdsOnBothSides) {
+  Settings few = settings(9);
+  few.fixations = 3;
+  InteractiveProcessor processor({few, settings(9), {}}, 1, true, hooks());  // B finds more objects
+  const std::vector<int> a = ids(see(processor, 0)), b = ids(newest_->b);
+  ASSERT_GT(b.size(), a.size());
+  see(processor, 1);
+  see(processor, 0);  // a loop
+  EXPECT_TRUE(newest_->a.result.attention.sequence->cut);
+  EXPECT_EQ(ids(newest_->a), a);
+  EXPECT_EQ(ids(newest_->b), b);
+}
+
+TEST_F(SequenceTest, AfterAJumpForwardBothSidesCountOnFromTheSameId) {
+  Settings few = settings(9);
+  few.fixations = 3;
+  InteractiveProcessor processor({few, settings(9), {}}, 1, true, hooks());
+  see(processor, 0);
+  const std::vector<int> b = ids(newest_->b);
+  const int largest = *std::max_element(b.begin(), b.end());
+  jump_ = {1, 50};
+  see(processor, 50);
+  EXPECT_EQ(ids(newest_->a).at(0), largest + 1);
+  EXPECT_EQ(ids(newest_->b).at(0), largest + 1);
+}
+
 }  // namespace
 }  // namespace saccade
