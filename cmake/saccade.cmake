@@ -24,7 +24,7 @@ endif()
 
 # OpenCV with its headers, which flood -Wconversion, as system headers. cmake/package.cmake exports the target without
 # their folder, and SaccadeConfig.cmake adds the one of the machine at hand. The program does without imgcodecs and
-# videoio: they load 220 libraries, which takes longer than its first frame.
+# videoio: they load 80 libraries more, GDAL and GStreamer among them, which takes longer than a frame.
 add_library(saccade_opencv INTERFACE)
 add_library(saccade::opencv ALIAS saccade_opencv)
 target_link_libraries(saccade_opencv INTERFACE opencv_core opencv_imgproc $<INSTALL_INTERFACE:opencv_imgcodecs>)
