@@ -17,6 +17,7 @@ if(SACCADE_VIEWER)
     DESTINATION ${CMAKE_INSTALL_DATADIR}/metainfo)
 endif()
 install(FILES ${desktop}/copyright ${PROJECT_SOURCE_DIR}/src/app/CHANGELOG.md DESTINATION ${documents})
+install(PROGRAMS ${PROJECT_SOURCE_DIR}/src/eval/cluster.sh DESTINATION ${documents}/examples)
 
 # The rooms' documents that help a user, each by the name of its room. They are written for the source tree: there
 # ./run is the program, and the bundled recording is in recordings/.

@@ -16,15 +16,20 @@
 #include "app/standard_output.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
+#include "core/file_writer.hpp"
 #include "core/folder_lock.hpp"
 #include "core/png.hpp"
 #include "core/text.hpp"
+#include "core/unfinished.hpp"
 #include "eval/contact_sheet.hpp"
+#include "eval/data_set_content.hpp"
 #include "eval/figure.hpp"
+#include "eval/merge.hpp"
 #include "eval/page.hpp"
 #include "eval/reliability_figure.hpp"
 #include "eval/report.hpp"
 #include "eval/result_file.hpp"
+#include "eval/result_reader.hpp"
 #include "output/json_text.hpp"
 #include "pipeline/processor.hpp"
 #include "sources/open_source.hpp"
@@ -36,7 +41,7 @@ namespace {
 constexpr double kPictureScale = 2;  // pixels of hr.png per px of hr.svg
 
 Error interrupted(const fs::path& folder) {
-  return failed("interrupted", folder.string(), "the same command continues it");
+  return Error(kUnfinished, "interrupted", folder.string(), "the same command continues it");
 }
 
 // The number of frames to evaluate.
@@ -67,30 +72,56 @@ EvalPlan make_plan(const EvalArguments& arguments, const Settings& settings, con
   return plan;
 }
 
-void check_any_evaluated(const StoredResults& results) {
-  for (const ImageResult& image : results.images)
-    if (!image.left_out) return;
-  throw unreadable(
-      fmt::format("none of {} could be evaluated; the first: {}", counted(results.images.size(), "image"),
-                  results.images.empty() ? "-" : results.images.front().left_out.value()),
-      results.plan.dataset, "each needs a label image of the size of its depth");
+// The results of all images; the images themselves are not kept.
+struct Findings {
+  Statistics statistics;
+  std::vector<Example> examples;
+};
+
+Error none_evaluated(const EvalPlan& plan, std::size_t images, const std::string& reason) {
+  return unreadable(fmt::format("none of {} could be evaluated; the first: {}", counted(images, "image"),
+                                images == 0 ? "-" : reason),
+                    plan.dataset, "each needs a label image of the size of its depth");
 }
 
-nlohmann::ordered_json summary_json(const StoredResults& results, const Statistics& statistics,
+// Also writes hr.csv.
+Findings summarise(const EvalPlan& plan, const std::vector<ResultFile>& files, const fs::path& out,
+                   const Interrupt& interrupt) {
+  StatisticsBuilder statistics(plan);
+  ExampleChooser examples(plan);
+  FileWriter csv(out / "hr.csv");
+  csv.write(csv_head());
+  std::size_t evaluated = 0, images = 0;
+  std::string reason;  // of the first image that is left out
+  ResultReader reader(files);
+  while (const auto image = reader.next()) {
+    if (interrupt.happened()) throw interrupted(out);
+    ++images;
+    evaluated += !image->left_out;
+    if (image->left_out && reason.empty()) reason = *image->left_out;
+    statistics.add(*image);
+    examples.add(*image);
+    csv.write(csv_lines(plan, *image));
+  }
+  if (evaluated == 0) throw none_evaluated(plan, images, reason);
+  csv.finish();
+  return {statistics.result(), examples.choose()};
+}
+
+nlohmann::ordered_json summary_json(const EvalPlan& plan, const Statistics& statistics,
                                     const std::string& out) {
-  auto json = report_json(results.plan, results.images, statistics);
+  auto json = report_json(plan, statistics);
   for (const char* key : {"parameters", "interval", "differences", "cross_validation"}) json.erase(key);
   json["out"] = out;
   return json;
 }
 
-// Writes all files of a complete evaluation. `source` may be null: then there are no examples.
-void write_report(const StoredResults& results, FrameSource* source, const fs::path& out,
-                  const Settings& settings, WorkerPool& pool, const Interrupt& interrupt) {
-  check_any_evaluated(results);
-  const EvalPlan& plan = results.plan;
-  const Statistics statistics = summarise(plan, results.images);
-  write_file(out / "hr.csv", csv_text(plan, results.images));
+// Writes all files of an evaluation whose results are in `files`. `source` may be null: then there are no
+// examples.
+void write_report(const EvalPlan& plan, const std::vector<ResultFile>& files, FrameSource* source,
+                  const fs::path& out, const Settings& settings, WorkerPool& pool,
+                  const Interrupt& interrupt) {
+  const auto [statistics, chosen] = summarise(plan, files, out, interrupt);
   const Drawing drawing = draw_hit_ratios(plan, statistics);
   const std::string svg = to_svg(drawing);
   write_file(out / "hr.svg", svg);
@@ -101,16 +132,14 @@ void write_report(const StoredResults& results, FrameSource* source, const fs::p
     write_file(out / "reliability.svg", reliability_svg);
     write_file(out / "reliability.png", encode_png(to_picture(*reliability, kPictureScale)));
   }
-  std::vector<Example> examples;
-  if (source != nullptr) examples = choose_examples(plan, results.images);
+  const std::vector<Example> examples = source != nullptr ? chosen : std::vector<Example>{};
   if (source != nullptr)
     write_examples(examples, plan, *source, pool, out, [&] { return interrupt.happened(); });
   if (interrupt.happened()) throw interrupted(out);
-  write_file(out / "index.html",
-             page_html(plan, results.images, statistics, {svg, reliability_svg}, examples));
-  write_file(out / "report.json", dump(report_json(plan, results.images, statistics), 2) + "\n");
+  write_file(out / "index.html", page_html(plan, statistics, {svg, reliability_svg}, examples));
+  write_file(out / "report.json", dump(report_json(plan, statistics), 2) + "\n");
   if (settings.json)
-    print_json(summary_json(results, statistics, out.string()));
+    print_json(summary_json(plan, statistics, out.string()));
   else if (!settings.quiet)
     print_text(fmt::format("{}{}; see {}\n", report_text(plan, statistics),
                            counted(statistics.images, "image"), (out / "index.html").string()));
@@ -138,41 +167,39 @@ void eval(const EvalArguments& arguments, const Settings& settings) {
   Settings fitting = settings;
   fit_default_levels(fitting, info);
   report_notes(info, fitting);
-  const EvalPlan plan = make_plan(arguments, fitting, info);
+  EvalPlan plan = make_plan(arguments, fitting, info);
   WorkerPool pool(worker_count(settings));
   Evaluation evaluation(plan, *source, pool);
+  plan.content = data_set_content(*source, plan);
   const fs::path out = arguments.out;
   make_output_folder(out);
   const FolderLock lock(out, "saccade eval");
   const Interrupt::Handler handler(interrupt, {});
-  StoredResults results = resume_results(out, plan);
-  const auto before = static_cast<std::int64_t>(results.images.size());
-  if (before > 0) spdlog::info("{}: {} evaluated already", out.string(), counted(before, "image"));
-  if (!results.complete) {
+  const ResumedResults before = resume_results(out, plan);
+  if (before.images > 0)
+    spdlog::info("{}: {} evaluated already", out.string(), counted(before.images, "image"));
+  if (!before.complete) {
     LineFile file(out / kResultFile, LineFile::Existing::keep);
-    const std::int64_t of_shard = (plan.positions - plan.shard) / plan.shards + 1;
-    Progress progress(!settings.quiet, of_shard - before);
-    if (!evaluation.run(results, file, progress, interrupt)) throw interrupted(out);
+    Progress progress(!settings.quiet, plan.positions_of_shard() - before.images);
+    if (!evaluation.run(before.known, file, progress, interrupt)) throw interrupted(out);
     file.append(end_line());
-    results.complete = true;
   }
-  std::sort(results.images.begin(), results.images.end(),
-            [](const auto& a, const auto& b) { return a.frame < b.frame; });
-  write_report(results, source.get(), out, settings, pool, interrupt);
+  write_report(plan, {scan_results(out)}, source.get(), out, settings, pool, interrupt);
 }
 
 void eval_merge(const EvalArguments& arguments, const Settings& settings) {
   cv::setNumThreads(1);
   Interrupt interrupt;
-  const StoredResults results = merge_results({arguments.merge.begin(), arguments.merge.end()});
+  const ShardedResults results =
+      find_shards({arguments.merge.begin(), arguments.merge.end()}, arguments.partial);
   const auto source = open_data_set(results.plan.dataset, results.plan.settings);
   const fs::path out = arguments.out;
   make_output_folder(out);
   const FolderLock lock(out, "saccade eval --merge");
   const Interrupt::Handler handler(interrupt, {});
-  write_results(out, results);
+  const ResultFile merged = write_merged(out, results);
   WorkerPool pool(worker_count(settings));
-  write_report(results, source.get(), out, settings, pool, interrupt);
+  write_report(results.plan, {merged}, source.get(), out, settings, pool, interrupt);
 }
 
 }  // namespace saccade

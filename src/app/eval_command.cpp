@@ -20,7 +20,7 @@ void add_arguments(CLI::App& command, EvalArguments& a) {
   };
   auto* dataset = add_source_option(command, "DATASET", a.dataset,
                                     "a source whose images have labels; see the end of this help");
-  add("--out", a.out, "DIR", "folder to write to; made if it does not exist")->required();
+  auto* out = add("--out", a.out, "DIR", "folder to write to; made if it does not exist");
   auto* models = add("--models", a.models, "LIST", "models to compare [that of the settings]");
   auto* kernels =
       add("--kernels", a.kernels, "LIST", "kernel sizes to compare, in px [that of the settings]");
@@ -36,9 +36,18 @@ void add_arguments(CLI::App& command, EvalArguments& a) {
                     "evaluate every n-th image only, from the i-th; combine the shards with --merge [1/1]");
   auto* merge =
       add("--merge", a.merge, "DIR...", "combine the results of all shards, instead of evaluating DATASET");
+  command
+      .add_flag("--partial", a.partial,
+                "with --merge: also if shards are missing or not complete; the report says which")
+      ->needs(merge);
+  auto* status = add("--status", a.status, "DIR...",
+                     "report how far each shard is, and which are missing; exit status 4 unless all are "
+                     "complete");
   for (CLI::Option* option : {kernels, selectors, shard}) over_time->excludes(option);
   for (CLI::Option* option : {dataset, models, kernels, selectors, points, shard, over_time})
     merge->excludes(option);
+  for (CLI::Option* option : {out, dataset, models, kernels, selectors, points, shard, over_time, merge})
+    status->excludes(option);
 }
 
 }  // namespace
@@ -61,6 +70,9 @@ void add_eval_command(CLI::App& app, std::function<void()>& action) {
     action = [state] {
       const Settings settings = state->options.resolve();
       set_log_level(settings);
+      if (!state->arguments.status.empty()) return eval_status(state->arguments, settings.json);
+      if (state->arguments.out.empty())
+        throw usage_error("no folder to write to", "eval", "name one with --out");
       if (state->arguments.over_time && !state->arguments.dataset.empty())
         eval_over_time(state->arguments, settings);
       else if (!state->arguments.merge.empty())

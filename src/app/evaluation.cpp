@@ -1,8 +1,6 @@
 #include "app/evaluation.hpp"
 
 #include <chrono>
-#include <set>
-#include <utility>
 
 #include <spdlog/spdlog.h>
 
@@ -25,20 +23,18 @@ Evaluation::Evaluation(const EvalPlan& plan, FrameSource& source, WorkerPool& po
   }
 }
 
-bool Evaluation::run(StoredResults& results, LineFile& file, Progress& progress, const Interrupt& interrupt) {
-  std::set<std::int64_t> known;
-  for (const ImageResult& image : results.images) known.insert(image.frame);
+bool Evaluation::run(const std::vector<bool>& known, LineFile& file, Progress& progress,
+                     const Interrupt& interrupt) {
   std::int64_t done = 0;
   for (std::int64_t position = plan_.shard - 1; position < plan_.positions;) {
     if (interrupt.happened()) return false;
     Batch batch;
     for (; position < plan_.positions && batch.readable.size() < lanes_.size(); position += plan_.shards)
-      if (!known.contains(plan_.frame_at(position))) read(plan_.frame_at(position), batch);
+      if (!known[static_cast<std::size_t>(position)]) read(plan_.frame_at(position), batch);
     evaluate(batch);
-    for (ImageResult& image : batch.images) {
+    for (const ImageResult& image : batch.images) {
       warn_left_out(image);
       file.append(image_line(image));
-      results.images.push_back(std::move(image));
       progress.update(++done);
     }
   }

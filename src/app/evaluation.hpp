@@ -22,8 +22,9 @@ class Evaluation {
   /// All three must outlive it. Throws Error as make_model().
   Evaluation(const EvalPlan& plan, FrameSource& source, WorkerPool& pool);
 
-  /// Appends to `results` and to the file. False if the interrupt ended it early. Throws Error.
-  [[nodiscard]] bool run(StoredResults& results, LineFile& file, Progress& progress,
+  /// Evaluates the positions of the plan that are not `known` and appends them to the file. False if the
+  /// interrupt ended it early. Throws Error.
+  [[nodiscard]] bool run(const std::vector<bool>& known, LineFile& file, Progress& progress,
                          const Interrupt& interrupt);
 
  private:

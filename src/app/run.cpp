@@ -18,11 +18,13 @@
 #include "app/interrupt.hpp"
 #include "app/progress.hpp"
 #include "app/run_report.hpp"
+#include "app/run_resume.hpp"
 #include "app/standard_output.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "core/folder_lock.hpp"
 #include "core/text.hpp"
+#include "core/unfinished.hpp"
 #include "models/model.hpp"
 #include "output/dataset_writer.hpp"
 #include "output/fixations_json.hpp"
@@ -31,6 +33,7 @@
 #include "output/line_stream.hpp"
 #include "output/writer_pool.hpp"
 #include "pipeline/pipeline.hpp"
+#include "pipeline/shard.hpp"
 #include "sources/open_source.hpp"
 
 namespace saccade {
@@ -46,7 +49,8 @@ constexpr std::size_t kRejectedListed = 10'000;  // so that hours with a bad sen
 // One `saccade run`, from open source to manifest.
 class Run {
  public:
-  Run(const RunArguments& arguments, const Settings& settings) : folder_(arguments.out) {
+  Run(const RunArguments& arguments, const Settings& settings)
+      : folder_(arguments.out), shard_(parse_shard(arguments.shard)), resume_(arguments.resume) {
     report_.command_line = arguments.command_line;
     report_.settings = settings;
     report_.workers = worker_count(settings);
@@ -60,8 +64,9 @@ class Run {
     make_output_folder(folder_);
     const FolderLock lock(folder_, "saccade run");
     const Interrupt::Handler until_processing(interrupt_, {});
+    if (resume_ && !go_on()) return;
     std::error_code code;
-    has_earlier_run_ = fs::exists(folder_ / "manifest.json", code);
+    has_earlier_run_ = !earlier_ && fs::exists(folder_ / "manifest.json", code);
     write_manifest();
     try {
       process(std::move(source), std::move(processor));
@@ -78,6 +83,8 @@ class Run {
     write_manifest();
     report_rejected(report_);
     print_summary();
+    if (resume_ && report_.status == "interrupted")
+      throw Error(kUnfinished, "interrupted", report_.out, "the same command continues it");
   }
 
  private:
@@ -91,8 +98,68 @@ class Run {
     check_model(settings, report_.source.size);
     check_dump(settings, settings.model);
     check_start(report_.source, settings.start);
+    if (shard_.count > 1) choose_part();
+    if (resume_) check_can_resume();
     return source;
   }
+
+  bool tracks_objects() const {
+    return tracks(report_.settings, report_.settings.selector, report_.source.sequence, report_.source.uri);
+  }
+
+  void choose_part() {
+    const SourceInfo& source = report_.source;
+    if (source.live || !source.frame_count)
+      throw usage_error("the number of its frames is not known", source.uri, "process it without --shard");
+    if (tracks_objects())
+      throw usage_error("attention over time needs all frames in order", "--shard",
+                        "take frames one by one with --tracking off, or process each sequence as a whole");
+    static_cast<FrameSettings&>(report_.settings) = part_of(report_.settings, *source.frame_count, shard_);
+    report_.shard = fmt::format("{}/{}", shard_.index, shard_.count);
+  }
+
+  void check_can_resume() const {
+    const auto refuse = [](const std::string& reason, const std::string& hint) {
+      return usage_error(reason, "--resume", hint);
+    };
+    if (report_.source.live) throw refuse("a live source does not give its frames again", "leave it out");
+    if (tracks_objects())
+      throw refuse("attention over time needs all frames in order",
+                   "leave it out, or take frames one by one with --tracking off");
+    for (const char* file : {"depth", "colour"})
+      if (report_.settings.dump.contains(file))
+        throw refuse(fmt::format("a data set (--dump {}) cannot be continued", file), "leave it out");
+  }
+
+  // Continues an earlier run, if there is one; false if it is complete.
+  bool go_on() {
+    earlier_ = find_resume_point(folder_, report_, slots());
+    if (!earlier_) return true;
+    if (earlier_->complete) {
+      spdlog::info("{}: the run is complete already", report_.out);
+      return false;
+    }
+    if (earlier_->frames > 0)
+      spdlog::info("{}: {} processed already", report_.out, counted(earlier_->frames, "frame"));
+    report_.resumed = earlier_->frames;
+    report_.rejected = earlier_->rejected;
+    return true;
+  }
+
+  // The selected frames that are left; none = nothing is.
+  std::optional<FrameSettings> frames_left() const {
+    FrameSettings frames = report_.settings;
+    if (!earlier_) return frames;
+    frames.start += earlier_->positions * frames.every;
+    if (frames.frames > 0) frames.frames -= earlier_->positions;
+    const bool are_limited = report_.settings.frames > 0;
+    const auto& count = report_.source.frame_count;
+    if ((are_limited && frames.frames <= 0) || (count && frames.start >= *count)) return std::nullopt;
+    return frames;
+  }
+
+  int writers() const { return report_.settings.dump.empty() ? 0 : kWriterThreads; }
+  int slots() const { return kSlotsInFlight + writers(); }
 
   void open_stream() {
     const Settings& settings = report_.settings;
@@ -106,24 +173,25 @@ class Run {
   ProcessorOptions processor_options() const {
     const Settings& settings = report_.settings;
     ProcessorOptions options{settings, settings, {}, requested_outputs(settings), report_.workers};
-    if (tracks(settings, settings.selector, report_.source.sequence, report_.source.uri))
-      options.tracking = settings;
+    if (tracks_objects()) options.tracking = settings;
     return options;
   }
 
   void process(std::unique_ptr<FrameSource> source, std::unique_ptr<FrameProcessor> processor) {
     const Settings& settings = report_.settings;
     const auto begin = Clock::now();
-    const int writers = settings.dump.empty() ? 0 : kWriterThreads;
-    LineFile fixations(folder_ / "fixations.jsonl");
-    Progress progress(!settings.quiet, expected_frames(report_.source, settings));
-    Pipeline pipeline(std::move(source), std::move(processor), pipeline_options(writers));
+    const auto frames = frames_left();
+    if (!frames) return add_earlier();
+    LineFile fixations(folder_ / "fixations.jsonl",
+                       earlier_ ? LineFile::Existing::keep : LineFile::Existing::replace);
+    Progress progress(!settings.quiet, expected_frames(report_.source, *frames));
+    Pipeline pipeline(std::move(source), std::move(processor), pipeline_options(*frames));
     const Interrupt::Handler handler(interrupt_, [&] {
       if (stream_) stream_->interrupt();
       pipeline.stop();
     });
     DatasetWriter dataset(folder_, report_.source);
-    WriterPool writer(writers, [&](const Result& result) {
+    WriterPool writer(writers(), [&](const Result& result) {
       write_frame(folder_, result, settings.dump, settings.first_level, dataset, settings.overlay);
     });
     try {
@@ -136,10 +204,10 @@ class Run {
     report_depth_losses(dataset.losses(), report_.out);
   }
 
-  PipelineOptions pipeline_options(int writers) {
+  PipelineOptions pipeline_options(const FrameSettings& frames) {
     PipelineOptions options;
-    options.frames = report_.settings;
-    options.slots = kSlotsInFlight + writers;
+    options.frames = frames;
+    options.slots = slots();
     if (report_.source.live) {
       options.policy = FramePolicy::newest;
       options.on_state = report_state;
@@ -192,10 +260,19 @@ class Run {
       // The first error is on its way to the user already.
     }
     report_.ledger = pipeline.ledger();
+    add_earlier();
     report_.latency = pipeline.latency();
     std::ranges::sort(report_.rejected);
     if (report_.source.live) report_.device = pipeline.source_state();
     report_.wall_s = std::chrono::duration<double>(Clock::now() - begin).count();
+  }
+
+  // Counts the frames of the earlier run, too.
+  void add_earlier() {
+    if (!earlier_) return;
+    report_.ledger.captured += earlier_->positions;
+    report_.ledger.processed += earlier_->frames;
+    report_.ledger.rejected += earlier_->positions - earlier_->frames;
   }
 
   // On the threads of the pipeline; read by the others after these have ended.
@@ -235,7 +312,10 @@ class Run {
 
   Interrupt interrupt_;  // before any thread is started
   fs::path folder_;
-  bool has_earlier_run_ = false;  // left its manifest in the folder
+  Shard shard_;
+  bool resume_;
+  std::optional<ResumePoint> earlier_;  // of the run that this one continues
+  bool has_earlier_run_ = false;        // another run left its manifest in the folder
   RunReport report_;
   std::unique_ptr<LineStream> stream_;  // nullptr = none
   std::mutex rejected_mutex_;           // guards report_.rejected while the pipeline runs

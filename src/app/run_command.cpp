@@ -20,6 +20,13 @@ void add_run_command(CLI::App& app, std::function<void()>& action, std::vector<s
   command.add_option("--out", arguments->out, "folder to write to; made if it does not exist")
       ->required()
       ->type_name("DIR");
+  command
+      .add_option("--shard", arguments->shard,
+                  "process the i-th of n parts of the frames only, which follow one another [1/1]")
+      ->type_name("i/n");
+  command.add_flag("--resume", arguments->resume,
+                   "go on with an interrupted run of the same command in the folder; exit status 4 if "
+                   "interrupted again");
   const auto options = std::make_shared<SettingsOptions>(
       command, AcceptedSettings{{SettingScope::model, SettingScope::attention, SettingScope::tracking,
                                  SettingScope::frames, SettingScope::sensor, SettingScope::output,

@@ -70,6 +70,11 @@ Json source_json(const SourceInfo& source) {
   return json;
 }
 
+// Of this process.
+double frames_per_s(const RunReport& report) {
+  return static_cast<double>(report.ledger.processed - report.resumed) / std::max(report.wall_s, 1e-9);
+}
+
 Json tracks_json(const TrackLog& log) {
   Json tracks = Json::array();
   for (const auto& [id, track] : log.tracks())
@@ -96,11 +101,12 @@ Json device_json(const SourceState& device) {
 }
 
 Json summary_json(const RunReport& report) {
-  const double rate = report.wall_s > 0 ? static_cast<double>(report.ledger.processed) / report.wall_s : 0;
+  const double rate = frames_per_s(report);
   Json json = {{"program", "saccade"}, {"version", kVersion}, {"status", report.status}};
   if (!report.error.empty()) json["error"] = report.error;
   json["out"] = report.out;
   json["ledger"] = ledger_json(report.ledger);
+  if (report.resumed > 0) json["resumed"] = report.resumed;
   json["wall_s"] = rounded(report.wall_s);
   json["frames_per_s"] = rounded(rate);
   json["stages_ms"] = stages_json(report.stages);
@@ -123,6 +129,7 @@ Json manifest_json(const RunReport& report) {
   json["source"] = source_json(report.source);
   json["intrinsics"] = intrinsics_json(report.settings.intrinsics.value_or(report.source.intrinsics));
   json["settings"] = settings_json(report.settings);
+  if (!report.shard.empty()) json["shard"] = report.shard;
   json["workers"] = report.workers;
   if (!report.tracks.empty()) json["tracking"] = tracks_json(report.tracks);
   Json rejected = Json::array();
@@ -137,7 +144,7 @@ Json manifest_json(const RunReport& report) {
 std::string summary_text(const RunReport& report) {
   const Ledger& ledger = report.ledger;
   return fmt::format("{} in {:.2f} s ({:.1f}/s){}{}{}{}; see {}", counted(ledger.processed, "frame"),
-                     report.wall_s, static_cast<double>(ledger.processed) / std::max(report.wall_s, 1e-9),
+                     report.wall_s, frames_per_s(report),
                      report.source.live ? ", " + live_text(ledger, report.latency) : "",
                      ledger.rejected > 0 ? fmt::format(", {} rejected", ledger.rejected) : "",
                      report.stream && report.stream->dropped > 0

@@ -28,7 +28,9 @@ struct RunReport {
   std::vector<std::string> command_line;
   SourceInfo source;
   Settings settings;
-  int workers = 0;  ///< worker_count(settings)
+  std::string shard;         ///< "3/8"; empty = all frames
+  std::int64_t resumed = 0;  ///< frames that an earlier run had computed; the ledger counts them too
+  int workers = 0;           ///< worker_count(settings)
   Ledger ledger;
   std::vector<std::pair<std::int64_t, std::string>> rejected;  ///< source index and reason; the first 10000
   FrameProblems incomplete;  ///< frames without a colour image or labels that could not be read

@@ -8,10 +8,12 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "core/file_writer.hpp"
 
 namespace saccade {
 namespace {
@@ -69,23 +71,54 @@ void write_file(const std::filesystem::path& path, std::span<const std::uint8_t>
 }
 
 void write_file(const std::filesystem::path& path, std::string_view text) {
-  const bool in_place = is_device(path);
-  const std::string target = in_place ? path.string() : path.string() + ".part";
-  if (!in_place) {
+  FileWriter file(path);
+  file.write(text);
+  file.finish();
+}
+
+FileWriter::FileWriter(const std::filesystem::path& path)
+    : path_(path), in_place_(is_device(path)), target_(in_place_ ? path.string() : path.string() + ".part") {
+  if (!in_place_) {
     std::error_code code;
     if (std::filesystem::exists(path, code) && !std::filesystem::is_regular_file(path, code))
       throw failed("cannot write: not a regular file", path.string(), "choose another name");
-    ::unlink(target.c_str());  // of a process that was killed
+    ::unlink(target_.c_str());  // of a process that was killed
   }
-  const int descriptor = open_to_write(target, in_place ? 0 : O_CREAT | O_EXCL);
-  if (descriptor < 0) throw write_error(path, errno);
-  int problem = write_all(descriptor, text.data(), text.size());
-  if (::close(descriptor) != 0 && problem == 0) problem = errno;
-  if (problem == 0 && !in_place && std::rename(target.c_str(), path.c_str()) != 0) problem = errno;
-  if (problem != 0) {
-    if (!in_place) ::unlink(target.c_str());
-    throw write_error(path, problem);
+  descriptor_ = open_to_write(target_, in_place_ ? 0 : O_CREAT | O_EXCL);
+  if (descriptor_ < 0) throw write_error(path, errno);
+}
+
+FileWriter::~FileWriter() {
+  if (descriptor_ < 0) return;
+  ::close(descriptor_);
+  if (!in_place_) ::unlink(target_.c_str());
+}
+
+void FileWriter::write(std::string_view text) {
+  constexpr std::size_t kBuffer = 1u << 20;
+  if (buffer_.size() + text.size() > kBuffer) flush();
+  if (text.size() <= kBuffer) {
+    buffer_ += text;
+    return;
   }
+  if (const int problem = write_all(descriptor_, text.data(), text.size()); problem != 0)
+    throw write_error(path_, problem);
+}
+
+void FileWriter::flush() {
+  if (const int problem = write_all(descriptor_, buffer_.data(), buffer_.size()); problem != 0)
+    throw write_error(path_, problem);
+  buffer_.clear();
+}
+
+void FileWriter::finish() {
+  flush();
+  int problem = 0;
+  if (::close(std::exchange(descriptor_, -1)) != 0) problem = errno;
+  if (problem == 0 && !in_place_ && std::rename(target_.c_str(), path_.c_str()) != 0) problem = errno;
+  if (problem == 0) return;
+  if (!in_place_) ::unlink(target_.c_str());
+  throw write_error(path_, problem);
 }
 
 std::string megabytes(double bytes) {

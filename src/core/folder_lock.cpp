@@ -16,6 +16,7 @@
 namespace saccade {
 namespace {
 
+constexpr const char* kLockFile = ".saccade.lock";
 constexpr const char* kHint = "choose another folder, or wait until it has ended";
 
 std::string host_name() {
@@ -34,8 +35,17 @@ std::string read_owner(int descriptor) {
 
 }  // namespace
 
+std::string lock_owner(const std::filesystem::path& folder) {
+  const int descriptor = ::open((folder / kLockFile).c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
+  if (descriptor < 0) return "";
+  const bool taken = ::flock(descriptor, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+  const std::string owner = taken ? read_owner(descriptor) : "";
+  ::close(descriptor);
+  return owner;
+}
+
 FolderLock::FolderLock(const std::filesystem::path& folder, const std::string& owner)
-    : path_(folder / ".saccade.lock") {
+    : path_(folder / kLockFile) {
   while (!take()) {
   }
   const std::string line = fmt::format("{}, process {} on {}\n", owner, ::getpid(), host_name());

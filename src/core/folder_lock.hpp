@@ -5,6 +5,9 @@
 
 namespace saccade {
 
+/// The owner of the lock of a folder, as "saccade run, process 12 on host"; empty = nobody has it.
+[[nodiscard]] std::string lock_owner(const std::filesystem::path& folder);
+
 /// While it lives, no other process can take the lock of the same folder. The file `.saccade.lock` in it
 /// names the owner. The system releases the lock of a process that was killed.
 class FolderLock {

@@ -21,6 +21,12 @@ void check_table(const Table& table) {
 
 }  // namespace
 
+std::vector<double> column(const Table& table, std::size_t n) {
+  std::vector<double> values;
+  for (const auto& row : table) values.push_back(row[n]);
+  return values;
+}
+
 std::vector<double> column_means(const Table& table) {
   check_table(table);
   std::vector<double> mean(table[0].size());

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -11,6 +12,9 @@ using Table = std::vector<std::vector<double>>;
 struct Interval {
   double low = 0, high = 0;
 };
+
+/// The n-th number of each row.
+[[nodiscard]] std::vector<double> column(const Table& table, std::size_t n);
 
 /// The mean of each column.
 std::vector<double> column_means(const Table& table);

@@ -1,6 +1,7 @@
 #include "eval/contact_sheet.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <set>
 
 #include <fmt/format.h>
@@ -21,20 +22,10 @@ constexpr std::size_t kExamples = 4;  // best ones, and as many worst ones
 constexpr int kPoints = 10;           // drawn in a picture
 constexpr int kWidth = 480;           // of a picture, px
 
-std::vector<Example> ranked(const EvalPlan& plan, const std::vector<ImageResult>& images,
-                            std::size_t condition) {
-  std::vector<Example> all;
-  for (const ImageResult& image : images)
-    if (!image.left_out && image.objects > 0)
-      all.push_back({condition, &image, share_of_bound(plan, image, condition), false, ""});
-  std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.share > b.share; });
-  return all;
-}
-
-double sum_of_shares(const std::vector<Example>& examples) {
-  double sum = 0;
-  for (const Example& example : examples) sum += example.share;
-  return sum;
+// Adds an example behind those whose share is not smaller.
+void insert(std::vector<Example>& ranking, const Example& example) {
+  const auto place = std::ranges::upper_bound(ranking, example.share, std::greater<>(), &Example::share);
+  ranking.insert(place, example);
 }
 
 // Contours of the objects, a light line on a dark one: white where a point hit, red where none did.
@@ -54,25 +45,44 @@ void draw_objects(cv::Mat3b& picture, const cv::Mat1w& labels, const std::vector
 
 }  // namespace
 
-std::vector<Example> choose_examples(const EvalPlan& plan, const std::vector<ImageResult>& images) {
-  const auto conditions = plan.conditions();
-  std::vector<Example> chosen;
-  for (const std::string& model : plan.models) {
-    std::vector<Example> best;
-    for (std::size_t i = 0; i < conditions.size(); ++i) {
-      if (conditions[i].model != model) continue;
-      std::vector<Example> all = ranked(plan, images, i);
-      if (best.empty() || sum_of_shares(all) > sum_of_shares(best)) best = std::move(all);
-    }
-    const std::size_t good = std::min(kExamples, (best.size() + 1) / 2);
-    const std::size_t bad = std::min(kExamples, best.size() - good);
-    for (std::size_t i = 0; i < best.size(); ++i) {
-      if (i >= good && i < best.size() - bad) continue;
-      best[i].best = i < good;
-      best[i].file = fmt::format("examples/{}_{:06}.jpg", model, best[i].image->frame);
-      chosen.push_back(best[i]);
-    }
+ExampleChooser::ExampleChooser(const EvalPlan& plan)
+    : plan_(plan), conditions_(plan.conditions()), rankings_(conditions_.size()) {}
+
+void ExampleChooser::add(const ImageResult& image) {
+  if (image.left_out || image.objects == 0) return;
+  for (std::size_t i = 0; i < conditions_.size(); ++i) {
+    Ranking& ranking = rankings_[i];
+    const double share = share_of_bound(plan_, image, i);
+    ++ranking.images;
+    ranking.shares += share;
+    const bool is_full = ranking.best.size() == kExamples;
+    const bool is_good = !is_full || share > ranking.best.back().share;
+    const bool is_bad = !is_full || share <= ranking.worst.front().share;
+    if (!is_good && !is_bad) continue;
+    const Example example{i, image.frame, image.name, image.objects, image.conditions[i], share};
+    if (is_good) insert(ranking.best, example);
+    if (is_bad) insert(ranking.worst, example);
+    if (ranking.best.size() > kExamples) ranking.best.pop_back();
+    if (ranking.worst.size() > kExamples) ranking.worst.erase(ranking.worst.begin());
   }
+}
+
+std::vector<Example> ExampleChooser::choose() const {
+  std::vector<Example> chosen;
+  for (const std::string& model : plan_.models) {
+    const Ranking* highest = nullptr;
+    for (std::size_t i = 0; i < conditions_.size(); ++i)
+      if (conditions_[i].model == model && (highest == nullptr || rankings_[i].shares > highest->shares))
+        highest = &rankings_[i];
+    const std::size_t good = std::min(kExamples, (highest->images + 1) / 2);
+    const std::size_t bad = std::min(kExamples, highest->images - good);
+    for (std::size_t i = 0; i < good; ++i) chosen.push_back(highest->best[i]);
+    for (std::size_t i = 0; i < good; ++i) chosen[chosen.size() - 1 - i].best = true;
+    chosen.insert(chosen.end(), highest->worst.end() - static_cast<std::ptrdiff_t>(bad),
+                  highest->worst.end());
+  }
+  for (Example& example : chosen)
+    example.file = fmt::format("examples/{}_{:06}.jpg", conditions_[example.condition].model, example.frame);
   return chosen;
 }
 
@@ -101,13 +111,13 @@ void write_examples(const std::vector<Example>& examples, const EvalPlan& plan, 
   Frame frame;
   for (const Example& example : examples) {
     if (stop()) return;
-    source.seek(example.image->frame);
+    source.seek(example.frame);
     const ReadResult read = source.read(frame, std::chrono::seconds(1));
     if (read.status != ReadStatus::frame)
-      throw unreadable("a frame cannot be read again", fmt::format("frame {}", example.image->frame),
+      throw unreadable("a frame cannot be read again", fmt::format("frame {}", example.frame),
                        "did the data set change?");
     if (plan.settings.intrinsics) frame.intrinsics = *plan.settings.intrinsics;
-    const auto& points = example.image->conditions[example.condition].points;
+    const auto& points = example.result.points;
     std::vector<std::uint8_t> jpeg;
     codec.encode(draw_example(frame, evaluator.compute(frame, example.condition).maps, points), kQuality,
                  jpeg);

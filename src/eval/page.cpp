@@ -104,14 +104,13 @@ std::string reliability_section(const EvalPlan& plan, const Statistics& statisti
 }
 
 std::string figure_of(const EvalPlan& plan, const Example& example) {
-  const ImageResult& image = *example.image;
   const int points = std::min(plan.points, 10);
-  const int found = objects_found(image.conditions[example.condition].hits(), points).back();
+  const int found = objects_found(example.result.hits(), points).back();
   return fmt::format(
       "<figure><img src=\"{}\" alt=\"\" loading=\"lazy\"><figcaption><b>frame {}{}</b>: {} of {} "
       "with {}, {:.0f} % of the bound</figcaption></figure>\n",
-      example.file, image.frame, image.name.empty() ? "" : " (" + escaped(image.name) + ")", found,
-      counted(image.objects, "object"), counted(points, "point"), 100 * example.share);
+      example.file, example.frame, example.name.empty() ? "" : " (" + escaped(example.name) + ")", found,
+      counted(example.objects, "object"), counted(points, "point"), 100 * example.share);
 }
 
 std::string sheets(const EvalPlan& plan, const std::vector<Example>& examples) {
@@ -129,23 +128,24 @@ std::string sheets(const EvalPlan& plan, const std::vector<Example>& examples) {
   return html.empty() ? html : html + "</div>\n";
 }
 
-std::string left_out(const std::vector<ImageResult>& images) {
+std::string left_out(const Statistics& statistics) {
   std::string items;
-  for (const ImageResult& image : images)
-    if (image.left_out)
-      items +=
-          fmt::format("<li>frame {}{}: {}</li>\n", image.frame,
-                      image.name.empty() ? "" : " (" + escaped(image.name) + ")", escaped(*image.left_out));
+  for (const LeftOut& image : statistics.left_out)
+    items += fmt::format("<li>frame {}{}: {}</li>\n", image.frame,
+                         image.name.empty() ? "" : " (" + escaped(image.name) + ")", escaped(image.reason));
+  if (statistics.images_left_out > statistics.left_out.size())
+    items += fmt::format("<li>{} more, in results.jsonl</li>\n",
+                         statistics.images_left_out - statistics.left_out.size());
   return items.empty() ? "" : "<h2>Left out</h2>\n<ul>\n" + items + "</ul>\n";
 }
 
 }  // namespace
 
-std::string page_html(const EvalPlan& plan, const std::vector<ImageResult>& images,
-                      const Statistics& statistics, const PageFigures& figures,
+std::string page_html(const EvalPlan& plan, const Statistics& statistics, const PageFigures& figures,
                       const std::vector<Example>& examples) {
   std::string html = kHead;
   html += fmt::format("<h1>Hit Ratio on {}</h1>\n", escaped(plan.dataset));
+  if (!plan.missing.empty()) html += fmt::format("<p><b>Partial:</b> {}.</p>\n", escaped(plan.missing));
   html += fmt::format(
       "<p>{} with {:.1f} labelled objects on average ({} to {}). HR(n) is the number of different "
       "objects that the first n points hit, divided by n; small figures are 95 % intervals over "
@@ -165,7 +165,7 @@ std::string page_html(const EvalPlan& plan, const std::vector<ImageResult>& imag
         "<p>The images on which each model comes closest to the bound and stays farthest from it, under its "
         "best kernel and selector. Outlines show the labelled objects: white where one of the first ten "
         "points hit, red where none did.</p>\n";
-  return html + sheets(plan, examples) + left_out(images) + "</body></html>\n";
+  return html + sheets(plan, examples) + left_out(statistics) + "</body></html>\n";
 }
 
 }  // namespace saccade

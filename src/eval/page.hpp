@@ -15,8 +15,7 @@ struct PageFigures {
 
 /// index.html: the figures, a table of the means with intervals, what the points lie on, how reliable their
 /// confidence is, and the examples' pictures, which are files beside the page.
-std::string page_html(const EvalPlan& plan, const std::vector<ImageResult>& images,
-                      const Statistics& statistics, const PageFigures& figures,
+std::string page_html(const EvalPlan& plan, const Statistics& statistics, const PageFigures& figures,
                       const std::vector<Example>& examples);
 
 }  // namespace saccade

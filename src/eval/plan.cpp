@@ -1,7 +1,6 @@
 #include "eval/plan.hpp"
 
 #include <algorithm>
-#include <charconv>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -9,13 +8,14 @@
 #include "core/error.hpp"
 #include "core/version.hpp"
 #include "eval/evaluation_format.hpp"
+#include "output/json_text.hpp"
+#include "pipeline/shard.hpp"
 
 namespace saccade {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr int kMostShards = 100'000;
 constexpr std::int64_t kMostPositions = 1'000'000'000'000;
 
 // Reads each word of the list with the setting's own parser; `take` gets the settings that hold it.
@@ -31,6 +31,22 @@ void parse_list(const EvalPlan& plan, const std::string& key, const std::string&
     apply_setting(settings, key, words[i]);
     take(settings);
   }
+}
+
+// For the first key whose values differ.
+std::optional<std::string> first_difference(const Json& stored, const Json& wanted) {
+  for (const auto& [key, value] : wanted.items()) {
+    if (key == "dataset") continue;
+    const auto other = stored.find(key);
+    if (other == stored.end()) return fmt::format("{} is missing", key);
+    if (*other == value) continue;
+    if (value.is_object()) return first_difference(*other, value);
+    if (key == "content")
+      return fmt::format("the images of the data sets {} and {} differ", dump(stored.at("dataset")),
+                         dump(wanted.at("dataset")));
+    return fmt::format("{} is {}, not {}", key, dump(*other), dump(value));
+  }
+  return std::nullopt;
 }
 
 }  // namespace
@@ -59,6 +75,12 @@ std::vector<Condition> EvalPlan::conditions() const {
   return all;
 }
 
+std::optional<std::int64_t> EvalPlan::position_of(std::int64_t frame) const {
+  const std::int64_t offset = frame - settings.start, position = offset / settings.every;
+  const bool selected = offset >= 0 && offset % settings.every == 0 && position < positions;
+  return selected && position % shards == shard - 1 ? std::optional(position) : std::nullopt;
+}
+
 Settings EvalPlan::settings_of(const Condition& condition) const {
   Settings s = settings;
   s.model = condition.model;
@@ -77,15 +99,9 @@ void parse_lists(EvalPlan& plan, const std::string& models, const std::string& k
 }
 
 void parse_shard(EvalPlan& plan, const std::string& text) {
-  const char* end = text.data() + text.size();
-  const auto [slash, first] = std::from_chars(text.data(), end, plan.shard);
-  const bool divided = first == std::errc{} && slash != end && *slash == '/';
-  const auto [stop, second] =
-      divided ? std::from_chars(slash + 1, end, plan.shards) : std::from_chars_result{slash, std::errc{}};
-  if (!divided || second != std::errc{} || stop != end || plan.shard < 1 || plan.shard > plan.shards ||
-      plan.shards > kMostShards)
-    throw usage_error("bad value for shard", fmt::format("'{}'", text),
-                      fmt::format("expected i/n with 1 <= i <= n <= {}, e.g. 3/8", kMostShards));
+  const Shard shard = parse_shard(text);
+  plan.shard = shard.index;
+  plan.shards = shard.count;
 }
 
 Json plan_json(const EvalPlan& plan) {
@@ -93,10 +109,14 @@ Json plan_json(const EvalPlan& plan) {
   for (const SettingSpec& spec : setting_specs())
     if (is_kept(spec)) settings[std::string(spec.key)] = spec.print(plan.settings);
   for (const Selector selector : plan.selectors) selectors.push_back(to_string(selector));
-  return {{"format", kEvaluationFormat}, {"version", kVersion},   {"dataset", plan.dataset},
-          {"frames", plan.positions},    {"models", plan.models}, {"kernels", plan.kernels},
-          {"selectors", selectors},      {"points", plan.points}, {"settings", settings},
-          {"shard", plan.shard},         {"shards", plan.shards}};
+  return {{"format", kEvaluationFormat}, {"version", kVersion},      {"dataset", plan.dataset},
+          {"content", plan.content},     {"frames", plan.positions}, {"models", plan.models},
+          {"kernels", plan.kernels},     {"selectors", selectors},   {"points", plan.points},
+          {"settings", settings},        {"shard", plan.shard},      {"shards", plan.shards}};
+}
+
+std::optional<std::string> difference(const EvalPlan& stored, const EvalPlan& wanted) {
+  return first_difference(plan_json(stored), plan_json(wanted));
 }
 
 EvalPlan plan_from_json(const Json& json) {
@@ -104,6 +124,7 @@ EvalPlan plan_from_json(const Json& json) {
     throw usage_error("results of another version", "", "evaluate again");
   EvalPlan plan;
   plan.dataset = json.at("dataset");
+  plan.content = json.at("content");
   const auto integer = [&](const char* key, std::int64_t low, std::int64_t high) {
     const Json& value = json.at(key);
     if (!value.is_number_integer() || value.get<double>() < static_cast<double>(low) ||

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -38,6 +39,7 @@ bool is_kept(const SettingSpec& spec);
 /// What an evaluation compares, and on which part of a data set.
 struct EvalPlan {
   std::string dataset;  ///< as open_source() takes it
+  std::string content;  ///< of the data set: data_set_content()
   std::vector<std::string> models;
   std::vector<int> kernels;
   std::vector<Selector> selectors;
@@ -45,6 +47,7 @@ struct EvalPlan {
   Settings settings;           ///< everything else; kPlanKeys have no effect
   int shard = 1, shards = 1;   ///< this part of how many; a part holds every shards-th frame
   std::int64_t positions = 0;  ///< number of frames that `settings` selects, in all shards
+  std::string missing{};       ///< for reports: what merged results lack; empty = nothing. Not stored
 
   /// Every model with every kernel and every selector, in this order of nesting.
   std::vector<Condition> conditions() const;
@@ -52,8 +55,14 @@ struct EvalPlan {
   /// The settings that compute a condition.
   Settings settings_of(const Condition& condition) const;
 
+  /// Number of frames of this shard.
+  std::int64_t positions_of_shard() const { return positions < shard ? 0 : (positions - shard) / shards + 1; }
+
   /// Index in the source of the selected frame at `position`.
   std::int64_t frame_at(std::int64_t position) const { return settings.start + position * settings.every; }
+
+  /// The position of a frame; none if it is not selected, or not of this shard.
+  std::optional<std::int64_t> position_of(std::int64_t frame) const;
 };
 
 /// Reads lists as on the command line, "a,b"; empty = the value in `settings`. Throws Error (usage): an
@@ -61,11 +70,15 @@ struct EvalPlan {
 void parse_lists(EvalPlan& plan, const std::string& models, const std::string& kernels,
                  const std::string& selectors);
 
-/// "i/n" with 1 <= i <= n <= 100000. Throws Error (usage).
+/// As parse_shard(text).
 void parse_shard(EvalPlan& plan, const std::string& text);
 
-/// Everything that the results depend on. An interrupted evaluation continues only with the same.
+/// Everything that the results depend on.
 nlohmann::ordered_json plan_json(const EvalPlan& plan);
+
+/// "kernels is [15], not [10]" for the first difference; none if the results of both plans belong together.
+/// The content of the data sets counts, not where they lie.
+[[nodiscard]] std::optional<std::string> difference(const EvalPlan& stored, const EvalPlan& wanted);
 
 /// The plan that plan_json() wrote. Throws Error (usage) or a JSON exception if `json` is not one.
 EvalPlan plan_from_json(const nlohmann::ordered_json& json);

@@ -28,33 +28,31 @@ double share(double sum, std::size_t of) { return of > 0 ? sum / static_cast<dou
 
 }  // namespace
 
-std::optional<Reliability> reliability_of(const EvalPlan& plan, const std::vector<ImageResult>& images,
-                                          std::size_t condition) {
-  Reliability result;
-  std::size_t objects = 0, found = 0;
-  for (const ImageResult& image : images) {
-    if (image.left_out) continue;
-    std::set<int> hit, surely_hit;
-    const auto& points = image.conditions[condition].points;
-    for (std::size_t i = 0; i < std::min(points.size(), static_cast<std::size_t>(plan.points)); ++i) {
-      const EvalPoint& point = points[i];
-      if (!point.confidence || point.label == kVoid) continue;
-      add_point(result, static_cast<double>(*point.confidence), point.label != 0);
-      if (point.label == 0) continue;
-      hit.insert(point.label);
-      if (*point.confidence >= kProbablyObject) surely_hit.insert(point.label);
-    }
-    objects += hit.size();
-    found += surely_hit.size();
+void ReliabilityBuilder::add(const ConditionResult& result, int most) {
+  std::set<int> hit, surely_hit;
+  const auto& points = result.points;
+  for (std::size_t i = 0; i < std::min(points.size(), static_cast<std::size_t>(most)); ++i) {
+    const EvalPoint& point = points[i];
+    if (!point.confidence || point.label == kVoid) continue;
+    add_point(sums_, static_cast<double>(*point.confidence), point.label != 0);
+    if (point.label == 0) continue;
+    hit.insert(point.label);
+    if (*point.confidence >= kProbablyObject) surely_hit.insert(point.label);
   }
-  if (result.points == 0) return std::nullopt;
+  objects_ += hit.size();
+  surely_found_ += surely_hit.size();
+}
+
+std::optional<Reliability> ReliabilityBuilder::result() const {
+  if (sums_.points == 0) return std::nullopt;
+  Reliability result = sums_;
   for (Reliability::Bin& bin : result.bins) {
     bin.confidence = share(bin.confidence, bin.points);
     bin.on_object = share(bin.on_object, bin.points);
   }
   result.brier = share(result.brier, result.points);
   result.precision = share(result.precision, result.sure);
-  result.recall = share(static_cast<double>(found), objects);
+  result.recall = share(static_cast<double>(surely_found_), objects_);
   return result;
 }
 

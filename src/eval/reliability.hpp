@@ -3,10 +3,8 @@
 #include <array>
 #include <cstddef>
 #include <optional>
-#include <vector>
 
 #include "eval/evaluator.hpp"
-#include "eval/plan.hpp"
 
 namespace saccade {
 
@@ -29,8 +27,18 @@ struct Reliability {
   double recall = 0;     ///< share of the objects that any point hit; 0 without objects
 };
 
-/// None if the points of this condition have no confidence. `condition` indexes EvalPlan::conditions().
-std::optional<Reliability> reliability_of(const EvalPlan& plan, const std::vector<ImageResult>& images,
-                                          std::size_t condition);
+/// The Reliability of one condition, image by image.
+class ReliabilityBuilder {
+ public:
+  /// The points that the condition chose in one image, `points` of them at most.
+  void add(const ConditionResult& result, int points);
+
+  /// Of all images so far; none if their points have no confidence.
+  [[nodiscard]] std::optional<Reliability> result() const;
+
+ private:
+  Reliability sums_;  // in place of means and shares
+  std::size_t objects_ = 0, surely_found_ = 0;
+};
 
 }  // namespace saccade

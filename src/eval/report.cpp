@@ -139,17 +139,16 @@ Json differences_json(const EvalPlan& plan, const Statistics& statistics) {
   return all;
 }
 
-Json left_out_json(const std::vector<ImageResult>& images) {
+Json left_out_json(const std::vector<LeftOut>& images) {
   Json all = Json::array();
-  for (const ImageResult& image : images)
-    if (image.left_out)
-      all.push_back({{"frame", image.frame}, {"name", image.name}, {"reason", *image.left_out}});
+  for (const LeftOut& image : images)
+    all.push_back({{"frame", image.frame}, {"name", image.name}, {"reason", image.reason}});
   return all;
 }
 
 // The lines of one image and condition; `start` is the same in all of them.
-std::string csv_lines(const EvalPlan& plan, const ImageResult& image, const std::vector<int>& hits,
-                      const std::string& start) {
+std::string condition_csv(const EvalPlan& plan, const ImageResult& image, const std::vector<int>& hits,
+                          const std::string& start) {
   const auto ratio = hit_ratio(hits, plan.points), neutral = hit_ratio(without_void(hits), plan.points);
   const auto bound = hit_ratio_bound(image.objects, plan.points);
   const auto kinds = point_kinds(hits, plan.points);
@@ -203,37 +202,45 @@ std::string reliability_text(const EvalPlan& plan, const Statistics& statistics)
 
 }  // namespace
 
-std::string csv_text(const EvalPlan& plan, const std::vector<ImageResult>& images) {
-  std::string text =
-      "frame,name,model,kernel,selector,n,objects,found,hr,bound,same_object,structure,void,missing,"
-      "hr_void_neutral\n";
+std::string csv_head() {
+  return "frame,name,model,kernel,selector,n,objects,found,hr,bound,same_object,structure,void,missing,"
+         "hr_void_neutral\n";
+}
+
+std::string csv_lines(const EvalPlan& plan, const ImageResult& image) {
+  std::string text;
   const auto conditions = plan.conditions();
-  for (const ImageResult& image : images)
-    for (std::size_t i = 0; i < image.conditions.size(); ++i) {
-      const std::string start =
-          fmt::format("{},{},{},{},{}", image.frame, quoted(image.name), conditions[i].model,
-                      conditions[i].kernel, to_string(conditions[i].selector));
-      text += csv_lines(plan, image, image.conditions[i].hits(), start);
-    }
+  for (std::size_t i = 0; i < image.conditions.size(); ++i) {
+    const std::string start =
+        fmt::format("{},{},{},{},{}", image.frame, quoted(image.name), conditions[i].model,
+                    conditions[i].kernel, to_string(conditions[i].selector));
+    text += condition_csv(plan, image, image.conditions[i].hits(), start);
+  }
   return text;
 }
 
-Json report_json(const EvalPlan& plan, const std::vector<ImageResult>& images, const Statistics& statistics) {
+Json report_json(const EvalPlan& plan, const Statistics& statistics) {
   Json json = {{"program", "saccade"}, {"version", kVersion}, {"format", kEvaluationFormat}};
   json["parameters"] = plan_json(plan);
   for (const char* key : {"format", "version", "shard", "shards"}) json["parameters"].erase(key);
+  if (!plan.missing.empty()) json["partial"] = plan.missing;
   if (plan.shards > 1) json["shard"] = fmt::format("{}/{}", plan.shard, plan.shards);
   json["images"] = statistics.images;
   json["images_with_classes"] = statistics.void_known;
-  json["left_out"] = left_out_json(images);
+  json["images_left_out"] = statistics.images_left_out;
+  json["left_out"] = left_out_json(statistics.left_out);
   json["objects_per_image"] = {{"mean", rounded(statistics.objects_mean)},
                                {"least", statistics.objects_least},
                                {"most", statistics.objects_most},
                                {"images_without", statistics.without_objects}};
-  json["interval"] = {{"share", 0.95},
-                      {"method", "percentile bootstrap over images"},
-                      {"resamples", kResamples},
-                      {"seed", kBootstrapSeed}};
+  json["interval"] = {{"share", 0.95}};
+  if (statistics.images <= kMostResampled) {
+    json["interval"]["method"] = "percentile bootstrap over images";
+    json["interval"]["resamples"] = kResamples;
+    json["interval"]["seed"] = kBootstrapSeed;
+  } else {
+    json["interval"]["method"] = "normal distribution of the mean over images";
+  }
   json["bound"] = curve_json(statistics.bound);
   json["baselines"] = {{"random", curve_json(statistics.random)}, {"centre", curve_json(statistics.centre)}};
   json["conditions"] = conditions_json(plan, statistics);
@@ -244,7 +251,8 @@ Json report_json(const EvalPlan& plan, const std::vector<ImageResult>& images, c
 
 std::string report_text(const EvalPlan& plan, const Statistics& statistics) {
   const auto counts = shown_counts(plan.points);
-  std::string text = fmt::format("{:<40}", "Hit Ratio at n =");
+  std::string text = plan.missing.empty() ? "" : "PARTIAL: " + plan.missing + "\n";
+  text += fmt::format("{:<40}", "Hit Ratio at n =");
   for (const int n : counts) text += fmt::format(" {:>6}", n);
   text += "\n" + table_line("upper bound", statistics.bound, counts);
   const auto conditions = plan.conditions();

@@ -1,11 +1,9 @@
 #include "eval/result_file.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <optional>
-#include <set>
 #include <string_view>
+#include <utility>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -13,6 +11,7 @@
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "core/image_size.hpp"
+#include "core/line_reader.hpp"
 #include "eval/hit_ratio.hpp"
 #include "output/json_text.hpp"
 
@@ -22,7 +21,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::uintmax_t kLargestFile = std::uintmax_t{8} << 30;
 constexpr double kMostFrames = 1e15;  // of a source, so that doubles hold them exactly
 constexpr int kMostLabel = 65535;
 
@@ -101,71 +99,59 @@ ImageResult image_from(const Json& json, const EvalPlan& plan) {
   return image;
 }
 
-struct Lines {
-  std::vector<std::string_view> complete;
-  std::uintmax_t complete_bytes = 0;  // up to the last line feed
-};
-
-Lines split_lines(std::string_view text) {
-  Lines lines;
-  for (std::size_t end; (end = text.find('\n', lines.complete_bytes)) != std::string_view::npos;) {
-    lines.complete.push_back(text.substr(lines.complete_bytes, end - lines.complete_bytes));
-    lines.complete_bytes = end + 1;
-  }
-  return lines;
-}
-
-StoredResults parse_results(const Lines& lines, const fs::path& path) {
-  StoredResults results;
-  std::set<std::int64_t> frames;
-  std::size_t number = 1;
+// Does something with a line; what is wrong with it becomes an Error that names the line.
+template <typename Action>
+void parse_line(const fs::path& path, std::size_t number, Action action) {
   const auto not_results = [&](const std::string& reason) {
     return unreadable("not the results of an evaluation: " + reason,
                       fmt::format("{}:{}", path.string(), number), "remove it to start again");
   };
   try {
-    if (lines.complete.empty()) throw std::runtime_error("no line with the parameters");
-    for (const std::string_view line : lines.complete) {
-      const Json json = Json::parse(line);
-      if (number == 1) {
-        results.plan = plan_from_json(json);
-      } else if (json.contains("end")) {
-        results.complete = true;
-      } else {
-        const ImageResult& image = results.images.emplace_back(image_from(json, results.plan));
-        if (!frames.insert(image.frame).second)
-          throw std::runtime_error(fmt::format("frame {} is there twice", image.frame));
-      }
-      ++number;
-    }
+    action();
   } catch (const Json::exception&) {  // whose text is not for users
     throw not_results("not JSON, or a field is missing or of another kind");
   } catch (const std::exception& error) {
     throw not_results(error.what());
   }
-  return results;
 }
 
-// "kernels is [15], not [10]" for the first difference of two plans; none if they are the same.
-std::optional<std::string> difference(const Json& stored, const Json& wanted) {
-  for (const auto& [key, value] : wanted.items()) {
-    const auto other = stored.find(key);
-    if (other == stored.end()) return fmt::format("{} is missing", key);
-    if (*other == value) continue;
-    if (value.is_object()) return difference(*other, value);
-    return fmt::format("{} is {}, not {}", key, dump(*other), dump(value));
+// The first line.
+EvalPlan read_plan(LineReader& reader, const fs::path& path) {
+  std::string_view line;
+  const bool is_there = reader.next(line);
+  EvalPlan plan;
+  parse_line(path, 1, [&] {
+    if (!is_there) throw std::runtime_error("no line with the parameters");
+    plan = plan_from_json(Json::parse(line));
+  });
+  return plan;
+}
+
+// Results that have an end are complete.
+void check_number(const ResultFile& file) {
+  if (file.images != file.plan.positions_of_shard())
+    throw std::runtime_error(
+        fmt::format("the end after {} images of {}", file.images, file.plan.positions_of_shard()));
+}
+
+// Notes where the frames of a file begin to descend.
+class RunFinder {
+ public:
+  explicit RunFinder(std::vector<FileRun>& runs) : runs_(runs) {}
+  void add(std::int64_t frame, std::uintmax_t begin, std::uintmax_t end) {
+    if (runs_.empty() || frame < last_) {
+      if (runs_.size() == kMostRuns) throw std::runtime_error("the frames are not in order");
+      runs_.push_back({begin, end});
+    }
+    runs_.back().end = end;
+    last_ = frame;
   }
-  return std::nullopt;
-}
 
-std::string read_text(const fs::path& path) {
-  const auto bytes = read_file(path, kLargestFile);
-  return {bytes.begin(), bytes.end()};
-}
-
-void sort_by_frame(std::vector<ImageResult>& images) {
-  std::sort(images.begin(), images.end(), [](const auto& a, const auto& b) { return a.frame < b.frame; });
-}
+ private:
+  static constexpr std::size_t kMostRuns = 10'000;  // each costs the memory of a reader
+  std::vector<FileRun>& runs_;
+  std::int64_t last_ = 0;
+};
 
 }  // namespace
 
@@ -189,65 +175,59 @@ std::string image_line(const ImageResult& image) {
 
 std::string end_line() { return Json({{"end", true}}).dump(); }
 
-StoredResults read_results(const fs::path& folder) {
-  const fs::path path = folder / kResultFile;
-  const std::string text = read_text(path);
-  return parse_results(split_lines(text), path);
+ImageResult parse_image(std::string_view line, const EvalPlan& plan) {
+  return image_from(Json::parse(line), plan);
 }
 
-StoredResults resume_results(const fs::path& folder, const EvalPlan& plan) {
+ResultFile scan_results(const fs::path& folder, const std::function<void(const ImageResult&)>& see) {
+  ResultFile file;
+  file.path = folder / kResultFile;
+  std::error_code code;
+  if (fs::exists(file.path, code) && !fs::is_regular_file(file.path, code))
+    throw unreadable("not a regular file", file.path.string(), "is this the right folder?");
+  LineReader reader(file.path);
+  file.plan = read_plan(reader, file.path);
+  RunFinder runs(file.runs);
+  std::size_t number = 2;
+  std::uintmax_t begin = reader.position();
+  for (std::string_view line; reader.next(line); begin = reader.position(), ++number)
+    parse_line(file.path, number, [&] {
+      const Json json = Json::parse(line);
+      if (file.complete) throw std::runtime_error("there are lines after its end");
+      file.complete = json.contains("end");
+      if (file.complete) return check_number(file);
+      const ImageResult image = image_from(json, file.plan);
+      runs.add(image.frame, begin, reader.position());
+      ++file.images;
+      if (see) see(image);
+    });
+  file.bytes = reader.position();
+  return file;
+}
+
+ResumedResults resume_results(const fs::path& folder, const EvalPlan& plan) {
   const fs::path path = folder / kResultFile;
-  std::string text;
   std::error_code code;
   if (fs::is_symlink(path, code)) throw failed("it is a symbolic link", path.string(), "delete it");
-  if (fs::exists(path, code)) text = read_text(path);
-  const Lines lines = split_lines(text);
-  if (lines.complete.empty()) {
+  std::vector<bool> known(static_cast<std::size_t>(plan.positions));
+  std::string_view line;
+  if (!fs::exists(path, code) || !LineReader(path).next(line)) {
     LineFile(path).append(plan_line(plan));
-    return {plan, {}, false};
+    return {0, false, std::move(known)};
   }
-  StoredResults results = parse_results(lines, path);
-  if (const auto other = difference(plan_json(results.plan), plan_json(plan)))
+  LineReader beginning(path);
+  if (const auto other = difference(read_plan(beginning, path), plan))
     throw usage_error("there are results of another evaluation: " + *other, path.string(),
                       "choose another --out, or remove the file");
-  if (lines.complete_bytes < text.size()) fs::resize_file(path, lines.complete_bytes);
-  return results;
-}
-
-StoredResults merge_results(const std::vector<fs::path>& folders) {
-  if (folders.empty()) throw std::invalid_argument("merge_results: no folders");
-  StoredResults merged;
-  std::set<int> seen;
-  for (const fs::path& folder : folders) {
-    StoredResults part = read_results(folder);
-    const int shard = part.plan.shard;
-    if (!part.complete)
-      throw usage_error(fmt::format("shard {}/{} is not complete", shard, part.plan.shards), folder.string(),
-                        "repeat its command: it continues from there");
-    if (!seen.insert(shard).second)
-      throw usage_error(fmt::format("shard {}/{} is given twice", shard, part.plan.shards), folder.string(),
-                        "name each shard's folder once");
-    part.plan.shard = 1;
-    if (seen.size() == 1) merged.plan = part.plan;
-    if (const auto other = difference(plan_json(merged.plan), plan_json(part.plan)))
-      throw usage_error("the shards are of different evaluations: " + *other, folder.string(),
-                        "merge shards of one evaluation only");
-    std::move(part.images.begin(), part.images.end(), std::back_inserter(merged.images));
-  }
-  for (int shard = 1; shard <= merged.plan.shards; ++shard)
-    if (!seen.contains(shard))
-      throw usage_error(fmt::format("shard {}/{} is missing", shard, merged.plan.shards),
-                        folders.front().string(), "name the folders of all shards");
-  merged.plan.shards = 1;
-  merged.complete = true;
-  sort_by_frame(merged.images);
-  return merged;
-}
-
-void write_results(const fs::path& folder, const StoredResults& results) {
-  std::string text = plan_line(results.plan) + "\n";
-  for (const ImageResult& image : results.images) text += image_line(image) + "\n";
-  write_file(folder / kResultFile, text + end_line() + "\n");
+  const ResultFile file = scan_results(folder, [&](const ImageResult& image) {
+    const auto position = plan.position_of(image.frame);
+    if (!position) throw std::runtime_error(fmt::format("frame {} is not part of it", image.frame));
+    if (known[static_cast<std::size_t>(*position)])
+      throw std::runtime_error(fmt::format("frame {} is there twice", image.frame));
+    known[static_cast<std::size_t>(*position)] = true;
+  });
+  if (file.bytes < fs::file_size(path)) fs::resize_file(path, file.bytes);
+  return {file.images, file.complete, std::move(known)};
 }
 
 }  // namespace saccade

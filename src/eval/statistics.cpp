@@ -10,143 +10,35 @@
 namespace saccade {
 namespace {
 
-template <typename Row>
-Table table_of(const std::vector<ImageResult>& images, Row row) {
-  Table table;
-  for (const ImageResult& image : images)
-    if (!image.left_out) table.push_back(row(image));
-  return table;
-}
-
-// share_of_bound() of each image in a row of one; 0 for an image without objects.
-Table shares_of_bound(const EvalPlan& plan, const std::vector<ImageResult>& images, std::size_t condition) {
-  return table_of(images, [&](const ImageResult& image) {
-    return std::vector<double>{image.objects > 0 ? share_of_bound(plan, image, condition) : 0};
-  });
-}
-
-std::vector<double> column(const Table& table, std::size_t n) {
-  std::vector<double> values;
-  for (const auto& row : table) values.push_back(row[n]);
-  return values;
-}
-
-Curve curve_of(const Table& table, const Table& resampled) {
-  Curve curve{column_means(table), {}};
-  for (std::size_t n = 0; n < curve.mean.size(); ++n)
-    curve.interval.push_back(central_95(column(resampled, n)));
-  return curve;
-}
-
-Curve curve_of(const Table& table) {
-  return curve_of(table, resampled_means(table, kResamples, kBootstrapSeed));
-}
-
 bool differ_in_one(const Condition& a, const Condition& b) {
   return (a.model != b.model) + (a.kernel != b.kernel) + (a.selector != b.selector) == 1;
 }
 
-Difference difference_of(std::size_t a, std::size_t b, const std::vector<Curve>& curves,
-                         const std::vector<Table>& resampled, const std::vector<int>& counts) {
-  Difference difference{a, b, {}, {}};
-  for (const int count : counts) {
-    const auto n = static_cast<std::size_t>(count - 1);
-    std::vector<double> of_a = column(resampled[a], n);
-    const std::vector<double> of_b = column(resampled[b], n);
-    std::transform(of_a.begin(), of_a.end(), of_b.begin(), of_a.begin(), std::minus<>());
-    difference.mean.push_back(curves[a].mean[n] - curves[b].mean[n]);
-    difference.interval.push_back(central_95(std::move(of_a)));
+void add_shares(std::vector<PointShares>& shares, const std::vector<PointKinds>& kinds) {
+  shares.resize(kinds.size());
+  for (std::size_t i = 0; i < kinds.size(); ++i) {
+    const double n = static_cast<double>(i) + 1;
+    shares[i].new_object += kinds[i].new_object / n;
+    shares[i].same_object += kinds[i].same_object / n;
+    shares[i].structure += kinds[i].structure / n;
+    shares[i].unlabelled += kinds[i].unlabelled / n;
+    shares[i].missing += kinds[i].missing / n;
   }
-  return difference;
 }
 
-void count_objects(const std::vector<ImageResult>& images, Statistics& statistics) {
-  for (const ImageResult& image : images) {
-    if (image.left_out) continue;
-    const bool first = statistics.images++ == 0;
-    statistics.without_objects += image.objects == 0;
-    statistics.void_known += image.void_known;
-    statistics.objects_mean += image.objects;
-    statistics.objects_least = first ? image.objects : std::min(statistics.objects_least, image.objects);
-    statistics.objects_most = std::max(statistics.objects_most, image.objects);
-  }
-  if (statistics.images == 0) throw std::invalid_argument("summarise: no image was evaluated");
-  statistics.objects_mean /= static_cast<double>(statistics.images);
-}
-
-std::vector<PointShares> shares_of(const EvalPlan& plan, const std::vector<ImageResult>& images,
-                                   std::size_t condition) {
-  std::vector<PointShares> shares(static_cast<std::size_t>(plan.points));
-  double count = 0;
-  for (const ImageResult& image : images) {
-    if (image.left_out) continue;
-    ++count;
-    const auto kinds = point_kinds(image.conditions[condition].hits(), plan.points);
-    for (std::size_t i = 0; i < kinds.size(); ++i) {
-      const double n = static_cast<double>(i) + 1;
-      shares[i].new_object += kinds[i].new_object / n;
-      shares[i].same_object += kinds[i].same_object / n;
-      shares[i].structure += kinds[i].structure / n;
-      shares[i].unlabelled += kinds[i].unlabelled / n;
-      shares[i].missing += kinds[i].missing / n;
-    }
-  }
-  for (PointShares& share : shares)
+std::vector<PointShares> means_of(std::vector<PointShares> sums, double count) {
+  for (PointShares& share : sums)
     for (double* value :
          {&share.new_object, &share.same_object, &share.structure, &share.unlabelled, &share.missing})
       *value /= count;
-  return shares;
+  return sums;
 }
 
-// Rows 0, 2, 4, .. (half 0) or 1, 3, 5, .. (half 1).
-Table half_of(const Table& table, std::size_t half) {
-  Table rows;
-  for (std::size_t i = half; i < table.size(); i += 2) rows.push_back(table[i]);
-  return rows;
-}
-
-std::array<std::vector<double>, 2> means_of_halves(const Table& table) {
+std::array<std::vector<double>, 2> means_of(const std::array<Moments, 2>& halves) {
   std::array<std::vector<double>, 2> means;
   for (const std::size_t half : {0U, 1U})
-    if (const Table rows = half_of(table, half); !rows.empty()) means[half] = column_means(rows);
+    if (halves[half].rows > 0) means[half] = halves[half].mean();
   return means;
-}
-
-// The condition of `model` with the highest sum of shares of the bound on one half of the images; the first
-// of equals.
-std::size_t best_on_half(const EvalPlan& plan, const std::vector<ImageResult>& images,
-                         const std::string& model, std::size_t half) {
-  const auto conditions = plan.conditions();
-  std::optional<std::size_t> best;
-  double highest = 0;
-  for (std::size_t i = 0; i < conditions.size(); ++i) {
-    if (conditions[i].model != model) continue;
-    double sum = 0;
-    for (const auto& row : half_of(shares_of_bound(plan, images, i), half)) sum += row[0];
-    if (!best || sum > highest) {
-      best = i;
-      highest = sum;
-    }
-  }
-  return *best;
-}
-
-CrossValidation cross_validate(const EvalPlan& plan, const std::vector<ImageResult>& images,
-                               const std::string& model) {
-  CrossValidation result{
-      model, {best_on_half(plan, images, model, 1), best_on_half(plan, images, model, 0)}, {}};
-  Table rows = hit_ratios(plan, images, result.used[0]);
-  const Table odd = hit_ratios(plan, images, result.used[1]);
-  for (std::size_t i = 1; i < rows.size(); i += 2) rows[i] = odd[i];
-  result.curve = curve_of(rows);
-  return result;
-}
-
-double mean_of(const std::vector<ImageResult>& images, std::size_t condition,
-               const std::function<double(const ConditionResult&)>& value) {
-  return column_means(table_of(images, [&](const ImageResult& image) {
-    return std::vector<double>{value(image.conditions[condition])};
-  }))[0];
 }
 
 }  // namespace
@@ -159,12 +51,6 @@ std::vector<int> shown_counts(int points) {
   return counts;
 }
 
-Table hit_ratios(const EvalPlan& plan, const std::vector<ImageResult>& images, std::size_t condition) {
-  return table_of(images, [&](const ImageResult& image) {
-    return hit_ratio(image.conditions[condition].hits(), plan.points);
-  });
-}
-
 double share_of_bound(const EvalPlan& plan, const ImageResult& image, std::size_t condition) {
   constexpr int kPoints = 10;
   const int points = std::min(plan.points, kPoints);
@@ -175,46 +61,134 @@ double share_of_bound(const EvalPlan& plan, const ImageResult& image, std::size_
   return sum / points;
 }
 
-Table void_neutral_hit_ratios(const EvalPlan& plan, const std::vector<ImageResult>& images,
-                              std::size_t condition) {
-  return table_of(images, [&](const ImageResult& image) {
-    return hit_ratio(without_void(image.conditions[condition].hits()), plan.points);
-  });
+StatisticsBuilder::StatisticsBuilder(const EvalPlan& plan)
+    : plan_(plan),
+      conditions_(plan.conditions()),
+      counts_(shown_counts(plan.points)),
+      of_condition_(conditions_.size()),
+      rows_(conditions_.size()) {
+  for (std::size_t a = 0; a < conditions_.size(); ++a)
+    for (std::size_t b = a + 1; b < conditions_.size(); ++b)
+      if (differ_in_one(conditions_[a], conditions_[b])) pairs_.push_back({a, b, {}});
 }
 
-Statistics summarise(const EvalPlan& plan, const std::vector<ImageResult>& images) {
-  Statistics statistics;
-  count_objects(images, statistics);
-  statistics.bound = curve_of(table_of(
-      images, [&](const ImageResult& image) { return hit_ratio_bound(image.objects, plan.points); }));
-  statistics.random = curve_of(table_of(images, [](const ImageResult& image) { return image.random; }));
-  statistics.centre = curve_of(table_of(images, [](const ImageResult& image) { return image.centre; }));
-
-  const std::vector<Condition> conditions = plan.conditions();
-  std::vector<Table> resampled;
-  for (std::size_t i = 0; i < conditions.size(); ++i) {
-    const Table table = hit_ratios(plan, images, i);
-    resampled.push_back(resampled_means(table, kResamples, kBootstrapSeed));
-    statistics.conditions.push_back(curve_of(table, resampled.back()));
-    statistics.halves.push_back(means_of_halves(table));
-    statistics.points_on.push_back(shares_of(plan, images, i));
-    statistics.reliability.push_back(reliability_of(plan, images, i));
-    if (statistics.void_known > 0)
-      statistics.void_neutral.push_back(curve_of(void_neutral_hit_ratios(plan, images, i)));
-    const auto most = static_cast<std::size_t>(plan.points);
-    statistics.points_mean.push_back(mean_of(
-        images, i, [&](const auto& r) { return static_cast<double>(std::min(r.points.size(), most)); }));
-    statistics.map_ms.push_back(mean_of(images, i, [](const auto& r) { return r.map_ms; }));
-    statistics.select_ms.push_back(mean_of(images, i, [](const auto& r) { return r.select_ms; }));
+void StatisticsBuilder::add(const ImageResult& image) {
+  if (image.left_out) {
+    if (counted_.images_left_out++ < kMostNamed)
+      counted_.left_out.push_back({image.frame, image.name, *image.left_out});
+    return;
   }
-  for (std::size_t a = 0; a < conditions.size(); ++a)
-    for (std::size_t b = a + 1; b < conditions.size(); ++b)
-      if (differ_in_one(conditions[a], conditions[b]))
-        statistics.differences.push_back(
-            difference_of(a, b, statistics.conditions, resampled, shown_counts(plan.points)));
-  for (const std::string& model : plan.models)
-    statistics.cross_validations.push_back(cross_validate(plan, images, model));
+  for (std::size_t i = 0; i < conditions_.size(); ++i) add_condition(image, i);
+  add_differences();
+  bound_.add(hit_ratio_bound(image.objects, plan_.points));
+  random_.add(image.random);
+  centre_.add(image.centre);
+  count(image);
+}
+
+void StatisticsBuilder::count(const ImageResult& image) {
+  const bool first = counted_.images++ == 0;
+  counted_.without_objects += image.objects == 0;
+  counted_.void_known += image.void_known;
+  counted_.objects_mean += image.objects;
+  counted_.objects_least = first ? image.objects : std::min(counted_.objects_least, image.objects);
+  counted_.objects_most = std::max(counted_.objects_most, image.objects);
+}
+
+void StatisticsBuilder::add_condition(const ImageResult& image, std::size_t condition) {
+  OfCondition& sums = of_condition_[condition];
+  const ConditionResult& result = image.conditions[condition];
+  const std::vector<int> hits = result.hits();
+  rows_[condition] = hit_ratio(hits, plan_.points);
+  sums.hit_ratio.add(rows_[condition]);
+  sums.void_neutral.add(hit_ratio(without_void(hits), plan_.points));
+  add_shares(sums.points_on, point_kinds(hits, plan_.points));
+  sums.reliability.add(result, plan_.points);
+  if (image.objects > 0) sums.share_of_bound[counted_.images % 2] += share_of_bound(plan_, image, condition);
+  sums.points += static_cast<double>(std::min(result.points.size(), static_cast<std::size_t>(plan_.points)));
+  sums.map_ms += result.map_ms;
+  sums.select_ms += result.select_ms;
+}
+
+void StatisticsBuilder::add_differences() {
+  std::vector<double> difference(counts_.size());
+  for (Pair& pair : pairs_) {
+    for (std::size_t i = 0; i < counts_.size(); ++i) {
+      const auto n = static_cast<std::size_t>(counts_[i] - 1);
+      difference[i] = rows_[pair.a][n] - rows_[pair.b][n];
+    }
+    pair.difference.add(difference);
+  }
+}
+
+Statistics StatisticsBuilder::result() const {
+  if (counted_.images == 0) throw std::invalid_argument("Statistics: no image was evaluated");
+  Statistics statistics = counted_;
+  const auto images = static_cast<double>(counted_.images);
+  statistics.objects_mean /= images;
+  statistics.bound = curve_of(bound_);
+  statistics.random = curve_of(random_);
+  statistics.centre = curve_of(centre_);
+  std::vector<Table> samples;  // of each condition, if its rows are kept
+  for (const OfCondition& sums : of_condition_) {
+    const Sample& hit_ratio = sums.hit_ratio;
+    if (hit_ratio.is_kept()) samples.push_back(resampled(hit_ratio.rows()));
+    statistics.conditions.push_back(hit_ratio.is_kept() ? curve_of(hit_ratio.rows(), samples.back())
+                                                        : curve_of(hit_ratio.all()));
+    statistics.halves.push_back(means_of(hit_ratio.halves()));
+    statistics.points_on.push_back(means_of(sums.points_on, images));
+    statistics.reliability.push_back(sums.reliability.result());
+    if (counted_.void_known > 0) statistics.void_neutral.push_back(curve_of(sums.void_neutral));
+    statistics.points_mean.push_back(sums.points / images);
+    statistics.map_ms.push_back(sums.map_ms / images);
+    statistics.select_ms.push_back(sums.select_ms / images);
+  }
+  for (const Pair& pair : pairs_) statistics.differences.push_back(difference_of(pair, samples));
+  for (const std::string& model : plan_.models) statistics.cross_validations.push_back(cross_validate(model));
   return statistics;
+}
+
+// `samples`: resampled means of each condition; empty if the rows are not kept.
+Difference StatisticsBuilder::difference_of(const Pair& pair, const std::vector<Table>& samples) const {
+  Difference difference{pair.a, pair.b, {}, {}};
+  const std::vector<double> a = of_condition_[pair.a].hit_ratio.all().mean(),
+                            b = of_condition_[pair.b].hit_ratio.all().mean();
+  for (const int count : counts_) {
+    const auto n = static_cast<std::size_t>(count - 1);
+    difference.mean.push_back(a[n] - b[n]);
+    if (samples.empty()) continue;
+    std::vector<double> of_a = column(samples[pair.a], n);
+    const std::vector<double> of_b = column(samples[pair.b], n);
+    std::transform(of_a.begin(), of_a.end(), of_b.begin(), of_a.begin(), std::minus<>());
+    difference.interval.push_back(central_95(std::move(of_a)));
+  }
+  if (samples.empty()) difference.interval = pair.difference.normal_95();
+  return difference;
+}
+
+// The condition of `model` with the highest sum of shares of the bound on one half of the images; the first
+// of equals.
+std::size_t StatisticsBuilder::best_on_half(const std::string& model, std::size_t half) const {
+  std::optional<std::size_t> best;
+  for (std::size_t i = 0; i < conditions_.size(); ++i)
+    if (conditions_[i].model == model &&
+        (!best || of_condition_[i].share_of_bound[half] > of_condition_[*best].share_of_bound[half]))
+      best = i;
+  return *best;
+}
+
+CrossValidation StatisticsBuilder::cross_validate(const std::string& model) const {
+  CrossValidation result{model, {best_on_half(model, 1), best_on_half(model, 0)}, {}};
+  const Sample &even = of_condition_[result.used[0]].hit_ratio,
+               &odd = of_condition_[result.used[1]].hit_ratio;
+  if (!even.is_kept()) {
+    result.curve = curve_of(even.halves()[0] + odd.halves()[1]);
+    return result;
+  }
+  Table rows = even.rows();
+  for (std::size_t i = 1; i < rows.size(); i += 2) rows[i] = odd.rows()[i];
+  result.curve = curve_of(rows, resampled(rows));
+  return result;
 }
 
 }  // namespace saccade

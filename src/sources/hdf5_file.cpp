@@ -13,7 +13,10 @@ void silence_messages() { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
 
 Hdf5Id open_hdf5(const std::filesystem::path& path) {
   silence_messages();
-  return {H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose};
+  // The file is only read, and the file systems of clusters often have no locks.
+  const Hdf5Id access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+  H5Pset_file_locking(access.get(), false, true);
+  return {H5Fopen(path.c_str(), H5F_ACC_RDONLY, access.get()), H5Fclose};
 }
 
 std::optional<Hdf5Images> Hdf5Images::open(const Hdf5Id& file, const std::string& name) {

@@ -28,7 +28,7 @@ TEST(ContactSheet, ChoosesBestAndWorstOfTheBestCondition) {
   for (const Example& example : examples) {
     EXPECT_EQ(example.condition, 2U) << "the only one that finds anything";
     EXPECT_EQ(example.best, frames.size() < 4);
-    frames.push_back(example.image->frame);
+    frames.push_back(example.frame);
   }
   EXPECT_EQ(frames, (std::vector<std::int64_t>{0, 4, 8, 1, 2, 6, 3, 7}));
   EXPECT_DOUBLE_EQ(examples[0].share, 1);

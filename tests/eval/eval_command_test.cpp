@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 using ::testing::HasSubstr;
 
-constexpr int kFailed = 1, kUsage = 2, kUnreadable = 3;
+constexpr int kFailed = 1, kUsage = 2, kUnreadable = 3, kUnfinished = 4;
 const std::string kScenes = "synthetic:table?seed=3&noise=kinect&size=160x120&frames=7&scenes=7";
 
 class EvalTest : public ProgramTest {
@@ -123,7 +123,7 @@ TEST_F(EvalTest, GoesOnAfterAnInterruption) {
   const std::string many = "synthetic:table?seed=3&size=160x120&frames=120&camera=orbit&rate=3";
   const ProgramResult stopped =
       run_saccade(command(many, in("stopped")), 0, folder_ / "stopped/results.jsonl");
-  EXPECT_EQ(stopped.status, kFailed);
+  EXPECT_EQ(stopped.status, kUnfinished);
   EXPECT_THAT(stopped.err, HasSubstr("interrupted"));
   EXPECT_FALSE(fs::exists(folder_ / "stopped/report.json"));
   EXPECT_EQ(eval("stopped", {}, many).status, 0);
@@ -142,8 +142,95 @@ TEST_F(EvalTest, MergedShardsAreTheWhole) {
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_EQ(outcome.out, "");
   expect_same("whole", "merged");
-  expect_error(kUsage, "2/3 is missing",
+  expect_error(kUsage, "of 3 shards, shard 2 is missing",
                {"eval", "--merge", in("part3"), in("part1"), "--out", in("merged")});
+}
+
+TEST_F(EvalTest, PartialResultsSayWhatTheyLack) {
+  for (const char* i : {"1", "4"})
+    ASSERT_EQ(eval(std::string("part") + i, {"--shard", std::string(i) + "/4"}).status, 0);
+  const auto all = lines("part4/results.jsonl");
+  write_file(folder_ / "part4/results.jsonl", all[0] + "\n" + all[1] + "\n");  // without its end
+  expect_error(kUsage, "of 4 shards, shards 2, 3 are missing and shard 4 is not complete",
+               {"eval", "--merge", in("part4"), in("part1"), "--out", in("merged")});
+  const ProgramResult outcome =
+      run_saccade({"eval", "--merge", in("part4"), in("part1"), "--partial", "--out", in("merged")});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  const std::string lack = "of 4 shards, shards 2, 3 are missing and shard 4 is not complete; 3 of 7 images";
+  EXPECT_THAT(outcome.out, ::testing::StartsWith("PARTIAL: " + lack));
+  EXPECT_EQ(report("merged")["partial"], lack);
+  EXPECT_EQ(report("merged")["images"], 3);
+  EXPECT_THAT(text("merged/index.html"), HasSubstr(lack));
+  EXPECT_EQ(eval("merged").status, 0) << "goes on with the rest";
+  EXPECT_EQ(report("merged")["images"], 7);
+  EXPECT_FALSE(report("merged").contains("partial"));
+}
+
+TEST_F(EvalTest, StatusReportsEveryShard) {
+  ASSERT_EQ(eval("part1", {"--shard", "1/3"}).status, 0);
+  ASSERT_EQ(eval("part3", {"--shard", "3/3"}).status, 0);
+  const auto all = lines("part3/results.jsonl");
+  write_file(folder_ / "part3/results.jsonl", all[0] + "\n" + all[1] + "\n");
+  fs::create_directory(folder_ / "empty");
+  ProgramResult outcome = run_saccade({"eval", "--status", in("part1"), in("part3"), in("empty")});
+  EXPECT_EQ(outcome.status, kUnfinished);
+  EXPECT_THAT(outcome.out, HasSubstr("shard 1/3   3 of 3 images   complete\n"));
+  EXPECT_THAT(outcome.out, HasSubstr("shard 3/3   1 of 2 images   stopped\n"));
+  EXPECT_THAT(outcome.err, HasSubstr("1 of 3 shards complete; missing: 2"));
+  outcome = run_saccade({"eval", "--status", in("part1"), in("part3"), "--json"});
+  const json status = json::parse(outcome.out);
+  EXPECT_EQ(status["complete"], false);
+  EXPECT_EQ(status["missing"], "2");
+  EXPECT_EQ(status["shards"][1]["done"], 1);
+  ASSERT_EQ(eval("whole").status, 0);
+  EXPECT_EQ(run_saccade({"eval", "--status", in("whole")}).status, 0);
+}
+
+TEST_F(EvalTest, TheContentOfADataSetCountsNotItsPath) {
+  cv::Mat1w depth(120, 160, std::uint16_t{1000});
+  depth(cv::Rect(60, 40, 30, 30)).setTo(900);
+  cv::Mat1b labels(120, 160, std::uint8_t{0});
+  labels(cv::Rect(60, 40, 30, 30)).setTo(1);
+  for (const char* name : {"0000", "0001"}) {
+    put(std::string(name) + "_depth.png", depth);
+    put(std::string(name) + "_label.png", labels);
+  }
+  fs::copy(folder_ / "data", folder_ / "copy");
+  const auto shard = [&](const std::string& out, const std::string& i, const std::string& source) {
+    return eval(out, {"--log-level", "error", "--shard", i + "/2"}, source).status;
+  };
+  ASSERT_EQ(shard("part1", "1", in("data")), 0);
+  ASSERT_EQ(shard("part2", "2", in("copy")), 0);
+  EXPECT_EQ(
+      run_saccade({"eval", "--merge", in("part1"), in("part2"), "--out", in("merged"), "--quiet"}).status, 0);
+  depth(0, 0) = 0;
+  write_file(folder_ / "copy/0001_depth.png", encode_png(depth));
+  ASSERT_EQ(shard("other2", "2", in("copy")), 0);
+  expect_error(kUsage, "the images of the data sets",
+               {"eval", "--merge", in("part1"), in("other2"), "--out", in("merged")});
+}
+
+// As on a cluster: the batch script of this room, run by GNU parallel in place of Slurm.
+TEST_F(EvalTest, TheBatchScriptRunsUnderGnuParallel) {
+  if (run_program("sh", {"-c", "command -v parallel"}).status != 0)
+    GTEST_SKIP() << "parallel is not installed";
+  const fs::path program = folder_ / "bin/saccade";
+  fs::create_directory(folder_ / "bin");
+  fs::create_symlink(SACCADE_PROGRAM, program);
+  const std::string script = SACCADE_SOURCE_DIR "/src/eval/cluster.sh";
+  const std::string line = "PATH=" + in("bin") +
+                           ":$PATH SHARDS=3 parallel --will-cite -q -j 2 env SLURM_ARRAY_TASK_ID={} bash " +
+                           script + " eval '" + kScenes + "' " + in("out") +
+                           " --levels 0..2 --kernels 9,15 --selectors proto,wta --points 6 --quiet ::: 1 2 3";
+  const ProgramResult outcome = run_program("sh", {"-c", line});
+  EXPECT_EQ(outcome.status, 0) << outcome.out << outcome.err;
+  EXPECT_EQ(run_saccade({"eval", "--status", in("out/1"), in("out/2"), in("out/3")}).status, 0);
+  ASSERT_EQ(run_saccade(
+                {"eval", "--merge", in("out/1"), in("out/2"), in("out/3"), "--out", in("merged"), "--quiet"})
+                .status,
+            0);
+  ASSERT_EQ(eval("whole").status, 0);
+  expect_same("whole", "merged");
 }
 
 TEST_F(EvalTest, FramesWhoseLabelsDoNotFitAreNamedAndLeftOut) {
@@ -209,7 +296,7 @@ TEST_F(EvalTest, OverTimeNeedsLabelsOrPoses) {
 TEST_F(EvalTest, Errors) {
   const std::string out = in("out");
   expect_error(kUsage, "no data set", {"eval", "--out", out});
-  expect_error(kUsage, "--out", {"eval", kScenes});
+  expect_error(kUsage, "no folder to write to", {"eval", kScenes});
   expect_error(kUsage, "3..127", command(kScenes, out, {"--kernels", "200"}));
   expect_error(kUsage, "symmetry3d", command(kScenes, out, {"--models", "nonsense"}));
   expect_error(kUsage, "i/n", command(kScenes, out, {"--shard", "4/3"}));

@@ -27,7 +27,7 @@ std::vector<ImageResult> images_with_confidence() {
 }
 
 TEST(Reliability, OfHandMadePoints) {
-  const auto r = reliability_of(sample_plan(), images_with_confidence(), 0);
+  const auto r = summarise(sample_plan(), images_with_confidence()).reliability[0];
   ASSERT_TRUE(r);
   EXPECT_EQ(r->points, 3U);
   EXPECT_EQ(r->sure, 2U);
@@ -42,29 +42,29 @@ TEST(Reliability, OfHandMadePoints) {
 }
 
 TEST(Reliability, ThereIsNoneWithoutConfidences) {
-  EXPECT_FALSE(reliability_of(sample_plan(), images_with_confidence(), 1));
+  EXPECT_FALSE(summarise(sample_plan(), images_with_confidence()).reliability[1]);
 }
 
 TEST(Reliability, AConfidenceOfOneIsInTheLastBin) {
   auto images = images_with_confidence();
   images[0].conditions[0].points = {{1, 2, 4, 1.0F}};
-  EXPECT_EQ(reliability_of(sample_plan(), images, 0)->bins[9].points, 1U);
+  EXPECT_EQ(summarise(sample_plan(), images).reliability[0]->bins[9].points, 1U);
 }
 
 TEST(Reliability, IsInTheReports) {
   const auto plan = sample_plan();
   const auto images = images_with_confidence();
   const Statistics statistics = summarise(plan, images);
-  const auto json = report_json(plan, images, statistics);
+  const auto json = report_json(plan, statistics);
   EXPECT_EQ(json["conditions"][0]["confidence"]["precision"], 0.5);
   EXPECT_EQ(json["conditions"][0]["confidence"]["bins"][9]["points"], 1);
   EXPECT_FALSE(json["conditions"][1].contains("confidence"));
   EXPECT_THAT(report_text(plan, statistics),
               HasSubstr("symmetry3d, k = 10, proto                     3      2     0.500  0.500  0.225\n"));
   EXPECT_THAT(report_text(plan, summarise(plan, sample_images())), Not(HasSubstr("confidence")));
-  EXPECT_THAT(page_html(plan, images, statistics, {"", "<svg>RELIABILITY</svg>"}, {}),
+  EXPECT_THAT(page_html(plan, statistics, {"", "<svg>RELIABILITY</svg>"}, {}),
               HasSubstr("<svg>RELIABILITY</svg>"));
-  EXPECT_THAT(page_html(plan, images, statistics, {"", ""}, {}), Not(HasSubstr("Confidence")));
+  EXPECT_THAT(page_html(plan, statistics, {"", ""}, {}), Not(HasSubstr("Confidence")));
 }
 
 // Five points of the same bin make a marker on the diagram, at their mean.

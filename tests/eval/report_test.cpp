@@ -161,7 +161,7 @@ TEST(Report, CsvOfAnImageWithClasses) {
 TEST(Report, JsonHoldsTheHonestFigures) {
   const auto plan = sample_plan();
   const auto images = images_with_void();
-  const auto json = report_json(plan, images, summarise(plan, images));
+  const auto json = report_json(plan, summarise(plan, images));
   EXPECT_EQ(json["images_with_classes"], 1);
   const auto& condition = json["conditions"][0];
   EXPECT_EQ(condition["hr_void_neutral"][0]["mean"], 1);
@@ -170,7 +170,7 @@ TEST(Report, JsonHoldsTheHonestFigures) {
   EXPECT_EQ(condition["halves"]["even"][2]["mean"], 0.333333);
   EXPECT_EQ(json["cross_validation"][0]["even_images_under"]["kernel"], 10);
   EXPECT_EQ(json["cross_validation"][0]["hr"][0]["n"], 1);
-  const auto without = report_json(plan, sample_images(), summarise(plan, sample_images()));
+  const auto without = report_json(plan, summarise(plan, sample_images()));
   EXPECT_FALSE(without["conditions"][0].contains("hr_void_neutral"));
   EXPECT_FALSE(without["conditions"][0]["points_on"][0].contains("void"));
 }
@@ -178,7 +178,7 @@ TEST(Report, JsonHoldsTheHonestFigures) {
 TEST(Report, JsonHoldsAllFigures) {
   const auto plan = sample_plan();
   const auto images = sample_images();
-  const auto json = report_json(plan, images, summarise(plan, images));
+  const auto json = report_json(plan, summarise(plan, images));
   EXPECT_EQ(json["images"], 2);
   ASSERT_EQ(json["left_out"].size(), 1U);
   EXPECT_EQ(json["left_out"][0]["frame"], 1);
@@ -225,8 +225,7 @@ TEST(Report, PageShowsTableExamplesAndWhatIsLeftOut) {
   plan.dataset = "a<b>&c";
   const auto images = sample_images();
   const auto examples = choose_examples(plan, images);
-  const std::string page =
-      page_html(plan, images, summarise(plan, images), {"<svg>FIGURE</svg>", ""}, examples);
+  const std::string page = page_html(plan, summarise(plan, images), {"<svg>FIGURE</svg>", ""}, examples);
   EXPECT_THAT(page, HasSubstr("<svg>FIGURE</svg>"));
   EXPECT_THAT(page, HasSubstr("a&lt;b&gt;&amp;c"));
   EXPECT_THAT(page, HasSubstr("symmetry3d, k = 15, wta"));
@@ -236,9 +235,9 @@ TEST(Report, PageShowsTableExamplesAndWhatIsLeftOut) {
   EXPECT_THAT(page, HasSubstr("What the points lie on"));
   EXPECT_THAT(page, Not(HasSubstr("void")));
   const auto with_void = images_with_void();
-  EXPECT_THAT(page_html(plan, with_void, summarise(plan, with_void), {}, {}),
+  EXPECT_THAT(page_html(plan, summarise(plan, with_void), {}, {}),
               HasSubstr("<td>33<small>0 / 17 / 17, missing 33</small></td>"));
-  EXPECT_THAT(page_html(plan, {images[0]}, summarise(plan, {images[0]}), {}, {}), Not(HasSubstr("Left out")));
+  EXPECT_THAT(page_html(plan, summarise(plan, {images[0]}), {}, {}), Not(HasSubstr("Left out")));
 }
 
 }  // namespace

@@ -256,7 +256,7 @@ bool read_any_results(std::span<const std::uint8_t> bytes) {
   static const Folder folder("results");
   write_file(folder / kResultFile, bytes);
   return proper_error_at_worst(ExitStatus::unreadable,
-                               [&] { static_cast<void>(read_results(folder.path())); });
+                               [&] { static_cast<void>(read_all({scan_results(folder.path())})); });
 }
 
 std::vector<Bytes> virtual_seeds() {

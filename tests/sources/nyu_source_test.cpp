@@ -1,4 +1,9 @@
 // Small files in the format of NYU Depth V2.
+#include <fcntl.h>
+#include <hdf5.h>
+#include <sys/file.h>
+#include <unistd.h>
+
 #include <limits>
 #include <memory>
 #include <utility>
@@ -171,6 +176,18 @@ TEST_F(NyuSourceTest, ACutFile) {
   close();
   fs::resize_file(path_, fs::file_size(path_) / 2);
   EXPECT_THAT(error(), HasSubstr("not an HDF5 file"));
+}
+
+// A lock that somebody else holds, or a file system without locks, does not keep the file from being read.
+TEST_F(NyuSourceTest, NeedsNoLock) {
+  put_depths();
+  close();
+  const int descriptor = ::open(path_.c_str(), O_RDONLY | O_CLOEXEC);
+  ASSERT_EQ(::flock(descriptor, LOCK_EX | LOCK_NB), 0);
+  const hid_t with_lock = H5Fopen(path_.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  EXPECT_LT(with_lock, 0) << "the library's default is to take a lock";
+  EXPECT_EQ(open_source(path_.string())->info().frame_count, kImages);
+  ::close(descriptor);
 }
 
 }  // namespace

@@ -1,0 +1,119 @@
+#include "app/run_resume.hpp"
+
+#include <algorithm>
+#include <deque>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "core/error.hpp"
+#include "core/file.hpp"
+#include "core/line_reader.hpp"
+#include "output/json_text.hpp"
+
+namespace saccade {
+namespace fs = std::filesystem;
+namespace {
+
+using Json = nlohmann::json;  // the order of keys does not matter
+
+constexpr std::uintmax_t kLargestManifest = 1u << 30;
+constexpr const char* kOther = "choose another --out, or leave out --resume to begin again";
+
+Error damaged(const fs::path& path) {
+  return unreadable("not of a run of this program", path.string(), "leave out --resume to begin again");
+}
+
+Json read_manifest(const fs::path& path) {
+  const auto bytes = read_file(path, kLargestManifest);
+  Json json = Json::parse(bytes, nullptr, false);
+  if (!json.is_object() || !json.contains("settings")) throw damaged(path);
+  return json;
+}
+
+// Whether the files of a run depend on the setting.
+bool matters(const SettingSpec& spec) {
+  return spec.scope != SettingScope::program && spec.key != "json" && spec.key != "stream";
+}
+
+void check_same(const Json& earlier, const Json& present, const std::string& what, const fs::path& folder) {
+  if (earlier == present) return;
+  throw usage_error(
+      fmt::format("the folder has another run: its {} is {}, not {}", what, dump(earlier), dump(present)),
+      folder.string(), kOther);
+}
+
+void check_same_run(const Json& earlier, const Json& present, const fs::path& folder) {
+  for (const char* key : {"version", "formats", "shard"})
+    check_same(earlier.value(key, Json()), present.value(key, Json()), key, folder);
+  check_same(earlier.at("source").at("uri"), present.at("source").at("uri"), "source", folder);
+  const Json &before = earlier.at("settings"), &now = present.at("settings");
+  for (const SettingSpec& spec : setting_specs())
+    if (const std::string key(spec.key); matters(spec)) check_same(before.at(key), now.at(key), key, folder);
+}
+
+std::int64_t frame_of(std::string_view line, const fs::path& path) {
+  const Json json = Json::parse(line, nullptr, false);
+  if (!json.is_object() || !json.contains("frame") || !json["frame"].is_number_integer()) throw damaged(path);
+  return json["frame"];
+}
+
+struct Line {
+  std::int64_t frame;
+  std::uintmax_t end;  // in the file
+};
+
+// Counts the lines of fixations.jsonl but for the last `unsure`, which are cut off; returns the last one that
+// is left.
+std::optional<Line> keep_lines(const fs::path& path, std::int64_t unsure, std::int64_t& count) {
+  std::error_code code;
+  if (!fs::exists(path, code)) return std::nullopt;
+  LineReader reader(path);
+  std::optional<Line> kept;
+  std::deque<Line> last;
+  std::int64_t frame = -1;
+  for (std::string_view line; reader.next(line);) {
+    if (const std::int64_t before = std::exchange(frame, frame_of(line, path)); frame <= before)
+      throw damaged(path);
+    last.push_back({frame, reader.position()});
+    if (static_cast<std::int64_t>(last.size()) <= unsure) continue;
+    kept = last.front();
+    last.pop_front();
+    ++count;
+  }
+  fs::resize_file(path, kept ? kept->end : 0);
+  return kept;
+}
+
+void add_rejected(const Json& manifest, std::int64_t last, ResumePoint& point) {
+  for (const Json& one : manifest.value("rejected", Json::array()))
+    if (const std::int64_t frame = one.at("frame"); frame <= last)
+      point.rejected.emplace_back(frame, one.at("reason"));
+}
+
+}  // namespace
+
+std::optional<ResumePoint> find_resume_point(const fs::path& folder, const RunReport& report,
+                                             std::int64_t unsure) {
+  const fs::path path = folder / "manifest.json", lines = folder / "fixations.jsonl";
+  std::error_code code;
+  if (!fs::exists(path, code)) return std::nullopt;
+  const Json manifest = read_manifest(path);
+  ResumePoint point;
+  try {
+    check_same_run(manifest, Json(manifest_json(report)), folder);
+    point.complete = manifest.at("status") == "done";
+    if (point.complete) return point;
+    if (fs::is_symlink(lines, code)) throw failed("it is a symbolic link", lines.string(), "delete it");
+    const auto kept = keep_lines(lines, unsure, point.frames);
+    if (!kept) return point;
+    point.positions = (kept->frame - report.settings.start) / report.settings.every + 1;
+    if (point.positions < point.frames) throw damaged(lines);
+    add_rejected(manifest, kept->frame, point);
+  } catch (const Json::exception&) {
+    throw damaged(path);
+  }
+  return point;
+}
+
+}  // namespace saccade
