@@ -23,10 +23,11 @@ if(SACCADE_SANITIZE)
 endif()
 
 # OpenCV with its headers, which flood -Wconversion, as system headers. cmake/package.cmake exports the target without
-# their folder, and SaccadeConfig.cmake adds the one of the machine at hand.
+# their folder, and SaccadeConfig.cmake adds the one of the machine at hand. The program does without imgcodecs and
+# videoio: they load 80 libraries more, GDAL and GStreamer among them, which takes longer than a frame.
 add_library(saccade_opencv INTERFACE)
 add_library(saccade::opencv ALIAS saccade_opencv)
-target_link_libraries(saccade_opencv INTERFACE opencv_core opencv_imgproc opencv_imgcodecs)
+target_link_libraries(saccade_opencv INTERFACE opencv_core opencv_imgproc $<INSTALL_INTERFACE:opencv_imgcodecs>)
 target_include_directories(saccade_opencv SYSTEM INTERFACE $<BUILD_INTERFACE:${OpenCV_INCLUDE_DIRS}>)
 set_target_properties(saccade_opencv PROPERTIES EXPORT_NAME opencv)
 

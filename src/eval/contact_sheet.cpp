@@ -4,13 +4,13 @@
 #include <set>
 
 #include <fmt/format.h>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "eval/hit_ratio.hpp"
 #include "eval/statistics.hpp"
+#include "oni/jpeg.hpp"
 #include "output/overlay.hpp"
 
 namespace saccade {
@@ -95,7 +95,9 @@ cv::Mat3b draw_example(const Frame& frame, const SaliencyMaps& maps, const std::
 
 void write_examples(const std::vector<Example>& examples, const EvalPlan& plan, FrameSource& source,
                     WorkerPool& pool, const fs::path& folder, const std::function<bool()>& stop) {
+  constexpr int kQuality = 88;
   Evaluator evaluator(plan, pool);
+  JpegCodec codec;
   Frame frame;
   for (const Example& example : examples) {
     if (stop()) return;
@@ -107,8 +109,8 @@ void write_examples(const std::vector<Example>& examples, const EvalPlan& plan, 
     if (plan.settings.intrinsics) frame.intrinsics = *plan.settings.intrinsics;
     const auto& points = example.image->conditions[example.condition].points;
     std::vector<std::uint8_t> jpeg;
-    cv::imencode(".jpg", draw_example(frame, evaluator.compute(frame, example.condition).maps, points), jpeg,
-                 {cv::IMWRITE_JPEG_QUALITY, 88});
+    codec.encode(draw_example(frame, evaluator.compute(frame, example.condition).maps, points), kQuality,
+                 jpeg);
     const fs::path path = folder / example.file;
     std::error_code code;
     fs::create_directories(path.parent_path(), code);  // if it fails, writing names the reason
