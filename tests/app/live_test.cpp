@@ -6,7 +6,10 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>
+#include <sstream>
+#include <string>
 #include <thread>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
@@ -90,6 +93,32 @@ TEST_F(LiveTest, WaitsForALostDeviceAndCountsTheDropouts) {
     EXPECT_GT(device["away_s"], 0.05);
     expect_complete();
     std::filesystem::remove_all(in("out"));
+  }
+}
+
+// Eight frames, a loss, and more frames of the same scene.
+TEST_F(LiveTest, AttentionOverTimeRemembersTheSceneWhileTheDeviceIsLost) {
+  ::setenv("SACCADE_VIRTUAL_DEVICE",
+           "synthetic:table?size=160x120&noise=kinect&frames=5&loss_after=8&back_after_ms=300&loss=event", 1);
+  const ProgramResult outcome = run_saccade({"run", "openni2", "--frames", "14", "--min-confidence", "0",
+                                             "--out", in("out"), "--dump", "none", "--tracking", "on"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_THAT(outcome.err, HasSubstr("reconnected"));
+  EXPECT_EQ(manifest()["tracking"]["cuts"], 0);
+  std::istringstream all(text("out/fixations.jsonl"));
+  std::vector<json> frames;
+  for (std::string line; std::getline(all, line);) frames.push_back(json::parse(line));
+  std::size_t before = 0;  // the last frame before the longest gap
+  const auto gap_us = [&](std::size_t k) {
+    return frames[k + 1]["timestamp_us"].get<std::int64_t>() - frames[k]["timestamp_us"].get<std::int64_t>();
+  };
+  for (std::size_t k = 0; k + 1 < frames.size(); ++k)
+    if (gap_us(k) > gap_us(before)) before = k;
+  ASSERT_GT(gap_us(before), 200'000);
+  for (std::size_t rank = 0; rank < 3; ++rank) {
+    const json &old = frames[before]["fixations"][rank], &now = frames[before + 1]["fixations"][rank];
+    EXPECT_EQ(now["id"], old["id"]) << rank;
+    EXPECT_GT(now["age_frames"], old["age_frames"]) << rank;
   }
 }
 
