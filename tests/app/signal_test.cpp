@@ -91,7 +91,7 @@ TEST_F(SignalTest, EvalCanBeContinuedAfterAnyMoment) {
                                             "--points", "3",
                                             "--out",    in("o"),
                                             "--quiet"};
-  constexpr int kInterrupted = 1;
+  constexpr int kInterrupted = 4;
   for (int k = 0; k < kMoments; ++k) {
     if (interrupt(kInterrupted, "o/results.jsonl", command) == 0)
       fs::remove_all(folder_ / "o");  // begin again
