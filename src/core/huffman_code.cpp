@@ -77,6 +77,7 @@ HuffmanCode make_huffman_code(std::span<const std::uint32_t> counts, int limit) 
     if (counts[i] > 0) symbols.push_back(i);
   std::ranges::stable_sort(symbols, {}, [&](std::size_t i) { return counts[i]; });
   std::vector<std::uint32_t> weights;
+  weights.reserve(symbols.size());
   for (const std::size_t i : symbols) weights.push_back(counts[i]);
   const LengthCounts lengths = limited_lengths(tree_depths(weights), limit);
 
