@@ -20,7 +20,6 @@
 #include "core/folder_lock.hpp"
 #include "core/png.hpp"
 #include "core/text.hpp"
-#include "core/unfinished.hpp"
 #include "eval/contact_sheet.hpp"
 #include "eval/data_set_content.hpp"
 #include "eval/figure.hpp"
@@ -41,7 +40,7 @@ namespace {
 constexpr double kPictureScale = 2;  // pixels of hr.png per px of hr.svg
 
 Error interrupted(const fs::path& folder) {
-  return Error(kUnfinished, "interrupted", folder.string(), "the same command continues it");
+  return Error(ExitStatus::unfinished, "interrupted", folder.string(), "the same command continues it");
 }
 
 // The number of frames to evaluate.

@@ -5,7 +5,7 @@
 
 #include "app/eval.hpp"
 #include "app/standard_output.hpp"
-#include "core/unfinished.hpp"
+#include "core/error.hpp"
 #include "eval/merge.hpp"
 
 namespace saccade {
@@ -51,7 +51,7 @@ void eval_status(const EvalArguments& arguments, bool json) {
     for (const ShardStatus& shard : status) print_text(to_text(shard));
   }
   if (!complete)
-    throw Error(kUnfinished,
+    throw Error(ExitStatus::unfinished,
                 fmt::format("{} of {} shards complete{}", done, shards,
                             missing.empty() ? "" : "; missing: " + missing),
                 "", "the command of a shard goes on from where it stopped");

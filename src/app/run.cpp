@@ -24,7 +24,6 @@
 #include "core/file.hpp"
 #include "core/folder_lock.hpp"
 #include "core/text.hpp"
-#include "core/unfinished.hpp"
 #include "models/model.hpp"
 #include "output/dataset_writer.hpp"
 #include "output/fixations_json.hpp"
@@ -84,7 +83,7 @@ class Run {
     report_rejected(report_);
     print_summary();
     if (resume_ && report_.status == "interrupted")
-      throw Error(kUnfinished, "interrupted", report_.out, "the same command continues it");
+      throw Error(ExitStatus::unfinished, "interrupted", report_.out, "the same command continues it");
   }
 
  private:

@@ -11,6 +11,7 @@ enum class ExitStatus {
   failed = 1,      ///< failed while running: device lost, disk full
   usage = 2,       ///< the command line or the configuration is wrong
   unreadable = 3,  ///< the input cannot be read
+  unfinished = 4,  ///< interrupted, or not complete: the same command goes on from there
 };
 
 /// A failure of the environment or of the input, for the user to read: what failed, on what, what to try.
