@@ -6,8 +6,6 @@
 namespace saccade {
 namespace {
 
-constexpr double kDefaultRateHz = 30;
-
 void measure_times(const std::vector<OniFrameEntry>& frames, OniStreamInfo& stream) {
   if (frames.empty()) return;
   stream.first_us = std::numeric_limits<std::uint64_t>::max();

@@ -58,7 +58,8 @@ JpegCodec::JpegCodec() : handles_(std::make_unique<Handles>()) {
 
 JpegCodec::~JpegCodec() = default;
 
-Outcome JpegCodec::decode(std::span<const std::uint8_t> payload, cv::Size size, cv::Mat3b& image) {
+Outcome JpegCodec::decode(std::span<const std::uint8_t> payload, cv::Size size, cv::Mat3b& image,
+                          JpegWarning warning) {
   const auto declared = jpeg_size(payload);
   if (!declared) return Outcome::failure("not a JPEG image");
   if (*declared != size)
@@ -68,10 +69,11 @@ Outcome JpegCodec::decode(std::span<const std::uint8_t> payload, cv::Size size, 
   if (static_cast<std::size_t>(size.area()) / 512 > payload.size())
     return Outcome::failure("a JPEG too short for its size");
   image.create(size);
+  const bool is_strict = warning == JpegWarning::is_damage;
   const int code = tjDecompress2(handles_->decompress, payload.data(), payload.size(), image.data, size.width,
                                  static_cast<int>(image.step[0]), size.height, TJPF_BGR,
-                                 TJFLAG_STOPONWARNING | TJFLAG_LIMITSCANS);
-  if (code != 0)
+                                 (is_strict ? TJFLAG_STOPONWARNING : 0) | TJFLAG_LIMITSCANS);
+  if (code != 0 && (is_strict || tjGetErrorCode(handles_->decompress) != TJERR_WARNING))
     return Outcome::failure(fmt::format("damaged JPEG: {}", tjGetErrorStr2(handles_->decompress)));
   return Outcome::success();
 }

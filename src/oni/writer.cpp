@@ -20,7 +20,6 @@ namespace {
 using namespace oni_property;
 
 constexpr std::uint32_t kDepthNode = 1, kColourNode = 2;
-constexpr std::uint32_t kDefaultRateHz = 30;
 constexpr int kMaxStored = 65535;
 constexpr float kFineReach_mm = 6553.5f;
 
@@ -47,7 +46,7 @@ std::vector<std::uint8_t> mode_bytes(cv::Size size, double rate_hz) {
   ByteBuilder mode;
   mode.put(static_cast<std::uint32_t>(size.width));
   mode.put(static_cast<std::uint32_t>(size.height));
-  mode.put(rate_hz >= 1 ? static_cast<std::uint32_t>(std::lround(rate_hz)) : kDefaultRateHz);
+  mode.put(static_cast<std::uint32_t>(std::lround(rate_hz >= 1 ? rate_hz : kDefaultRateHz)));
   return mode.take();
 }
 

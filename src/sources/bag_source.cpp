@@ -7,7 +7,6 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <opencv2/imgproc.hpp>
 
 #include "core/error.hpp"
 #include "sources/bag_topics.hpp"
@@ -139,10 +138,9 @@ class BagSource final : public FrameSource {
     try {
       const cv::Mat3b image = ros_colour(read_ros_image(file_->read(nearest->place), colour_->topic));
       if (image.size() == info_.size)
-        colour = image;
+        colour = image;  // of this message alone: no copy is needed
       else
-        cv::resize(image, colour, info_.size, 0, 0,
-                   image.size().area() > info_.size.area() ? cv::INTER_AREA : cv::INTER_LINEAR);
+        fit_colour(image, info_.size, colour);
       return "";
     } catch (const std::runtime_error& error) {
       return fmt::format("no colour: {}", error.what());

@@ -15,6 +15,7 @@
 #include "core/image_size.hpp"
 #include "core/outcome.hpp"
 #include "core/png.hpp"
+#include "sources/frame_fields.hpp"
 #include "sources/pcd.hpp"
 #include "sources/ply.hpp"
 #include "sources/source_kind.hpp"
@@ -144,7 +145,7 @@ cv::Mat3b ColourReader::read(const fs::path& path, cv::Size size) {
   }
   if (stored == size) return image;
   cv::Mat3b scaled;
-  cv::resize(image, scaled, size, 0, 0, stored.area() > size.area() ? cv::INTER_AREA : cv::INTER_LINEAR);
+  fit_colour(image, size, scaled);
   return scaled;
 }
 

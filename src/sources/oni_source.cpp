@@ -5,17 +5,16 @@
 #include <limits>
 
 #include <fmt/format.h>
-#include <opencv2/imgproc.hpp>
 
 #include "core/depth_units.hpp"
 #include "core/error.hpp"
 #include "core/text.hpp"
+#include "sources/frame_fields.hpp"
 #include "sources/source_kind.hpp"
 
 namespace saccade {
 namespace {
 
-constexpr double kDefaultRateHz = 30;
 constexpr std::uint64_t kJump_us = 10'000'000;  // a larger step of time is a note
 constexpr std::size_t kMostNotes = 5;           // of problems, one by one
 
@@ -92,9 +91,7 @@ void OniSource::note_colour() {
   pairing_tolerance_us_ = std::max(pairing_tolerance_us_, tolerance_us(format.rate_hz));
   if (colour_->declared.type == OniNodeType::ir)
     info_.notes.push_back("no colour stream; the infrared image is shown as grey");
-  if (format.size != info_.size)
-    info_.notes.push_back(fmt::format("colour of {} x {} is scaled to the depth's {} x {}", format.size.width,
-                                      format.size.height, info_.size.width, info_.size.height));
+  if (format.size != info_.size) info_.notes.push_back(fitted_colour_note(format.size, info_.size));
   choose_pairing();
   if (depth_->int_property(oni_property::kRegistered, recording_.index().file_size).value_or(0) == 0)
     info_.notes.push_back("the recording does not say whether colour is registered to depth; assuming it is");
@@ -210,13 +207,7 @@ Outcome OniSource::read_colour(std::size_t depth_frame, cv::Mat3b& colour) {
       return Outcome::failure(fmt::format("colour frame {}: {}", k, read.reason()));
     shown_colour_ = k;
   }
-  const cv::Size size = info_.size;
-  if (colour_image_.size() == size)
-    colour_image_.copyTo(colour);
-  else
-    cv::resize(
-        colour_image_, colour, size, 0, 0,
-        colour_image_.total() > static_cast<std::size_t>(size.area()) ? cv::INTER_AREA : cv::INTER_LINEAR);
+  fit_colour(colour_image_, info_.size, colour);
   return Outcome::success();
 }
 

@@ -5,7 +5,6 @@
 #include <poll.h>
 #include <sys/ioctl.h>
 #include <sys/mman.h>
-#include <turbojpeg.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -75,7 +74,7 @@ V4l2Camera::Buffer::Buffer(int file, std::uint32_t offset, std::size_t size) {
 V4l2Camera::Buffer::~Buffer() { ::munmap(bytes_.data(), bytes_.size()); }
 
 V4l2Camera::V4l2Camera(const std::filesystem::path& device)
-    : device_{::open(device.c_str(), O_RDWR | O_NONBLOCK | O_CLOEXEC)}, jpeg_(nullptr, tjDestroy) {
+    : device_{::open(device.c_str(), O_RDWR | O_NONBLOCK | O_CLOEXEC)} {
   if (device_.file < 0) throw failure("it cannot be opened", errno);
   check_capabilities();
   choose_format();
@@ -173,7 +172,8 @@ V4l2Camera::Read V4l2Camera::read(cv::Mat3b& picture, std::chrono::milliseconds 
 }
 
 bool V4l2Camera::decode(std::span<std::uint8_t> data, cv::Mat3b& picture) {
-  if (is_jpeg(format_)) return decode_jpeg(data, picture);
+  // Many cameras write JPEG of which the library warns, e.g. with bytes after the end; the picture is good.
+  if (is_jpeg(format_)) return static_cast<bool>(jpeg_.decode(data, size_, picture, JpegWarning::is_ignored));
   const auto rows =
       static_cast<std::size_t>(format_ == V4L2_PIX_FMT_NV12 ? size_.height * 3 / 2 : size_.height);
   if (data.size() < rows * row_bytes_) return false;
@@ -199,21 +199,6 @@ bool V4l2Camera::decode(std::span<std::uint8_t> data, cv::Mat3b& picture) {
       raw.copyTo(picture);
   }
   return true;
-}
-
-// Many cameras write JPEG of which the library warns, e.g. with bytes after the end; the picture is good.
-bool V4l2Camera::decode_jpeg(std::span<const std::uint8_t> data, cv::Mat3b& picture) {
-  if (!jpeg_) jpeg_.reset(tjInitDecompress());
-  if (!jpeg_) throw std::runtime_error("JPEG cannot be decoded: no memory");
-  int width = 0, height = 0, sampling = 0, colours = 0;
-  const auto size = static_cast<unsigned long>(data.size());
-  if (tjDecompressHeader3(jpeg_.get(), data.data(), size, &width, &height, &sampling, &colours) != 0 ||
-      cv::Size(width, height) != size_)
-    return false;
-  picture.create(size_);
-  const int code = tjDecompress2(jpeg_.get(), data.data(), size, picture.data, width,
-                                 static_cast<int>(picture.step), height, TJPF_BGR, 0);
-  return code == 0 || tjGetErrorCode(jpeg_.get()) == TJERR_WARNING;
 }
 
 }  // namespace saccade

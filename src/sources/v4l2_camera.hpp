@@ -10,6 +10,8 @@
 
 #include <opencv2/core.hpp>
 
+#include "oni/jpeg.hpp"
+
 namespace saccade {
 
 /// A camera of the system through Video4Linux, streaming from its opening. Formats: YUYV, UYVY, NV12, BGR,
@@ -56,7 +58,6 @@ class V4l2Camera {
   void start();
   void queue(std::uint32_t index) const;
   bool decode(std::span<std::uint8_t> data, cv::Mat3b& picture);
-  bool decode_jpeg(std::span<const std::uint8_t> data, cv::Mat3b& picture);
 
   struct CloseFile {
     int file;
@@ -69,7 +70,7 @@ class V4l2Camera {
   cv::Size size_;
   double rate_hz_ = 0;
   std::vector<std::unique_ptr<Buffer>> buffers_;
-  std::unique_ptr<void, int (*)(void*)> jpeg_;  // a decoder of libjpeg-turbo
+  JpegCodec jpeg_;
 };
 
 }  // namespace saccade

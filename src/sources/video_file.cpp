@@ -158,14 +158,14 @@ std::int64_t VideoFile::time_of(const AVPacket& packet) const {
   return time_us(time);
 }
 
-std::int64_t VideoFile::start_us() const {
-  const std::int64_t first = stream_->start_time == AV_NOPTS_VALUE ? 0 : stream_->start_time;
-  return av_rescale_q(first, stream_->time_base, {1, 1'000'000});
+std::int64_t VideoFile::start() const {
+  return stream_->start_time == AV_NOPTS_VALUE ? 0 : stream_->start_time;
 }
 
+std::int64_t VideoFile::start_us() const { return av_rescale_q(start(), stream_->time_base, {1, 1'000'000}); }
+
 std::int64_t VideoFile::time_us(std::int64_t timestamp) const {
-  const std::int64_t first = stream_->start_time == AV_NOPTS_VALUE ? 0 : stream_->start_time;
-  return av_rescale_q(timestamp - first, stream_->time_base, {1, 1'000'000});
+  return av_rescale_q(timestamp - start(), stream_->time_base, {1, 1'000'000});
 }
 
 std::vector<std::string> VideoFile::titles() const {

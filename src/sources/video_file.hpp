@@ -95,6 +95,7 @@ class VideoFile {
   };
 
   void open(const std::filesystem::path& path);
+  std::int64_t start() const;  // as start_us(), in the units of the stream
   void choose_stream(const std::filesystem::path& path, std::string_view title);
   bool read_packet();
   std::int64_t time_of(const AVPacket& packet) const;

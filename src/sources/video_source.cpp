@@ -87,9 +87,7 @@ class DepthVideoSource final : public FrameSource {
     tolerance_us_ = std::max<std::int64_t>(tolerance_us_, std::llround(0.75e6 / colour_->rate_hz()));
     if (registration_ && registration_->colour_size() != colour_->size()) registration_.reset();
     if (!registration_ && colour_->size() != info_.size)
-      info_.notes.push_back(fmt::format("colour of {} x {} is scaled to the depth's {} x {}",
-                                        colour_->size().width, colour_->size().height, info_.size.width,
-                                        info_.size.height));
+      info_.notes.push_back(fitted_colour_note(colour_->size(), info_.size));
   }
 
   const SourceInfo& info() const override { return info_; }

@@ -293,7 +293,6 @@ std::vector<Bytes> mkv_seeds() {
     write_raw_matroska(path, images[0].size(), 33, packets);
   }));
   seeds.push_back(written("seed.mkv", [&](const fs::path& path) {
-    constexpr std::uint32_t kB16g = 'b' | '1' << 8 | '6' << 16 | 'g' << 24;
     MatroskaTrack depth{"DEPTH", kB16g, images[0].size(), 16, 0, 33, {}};
     for (const cv::Mat1w& image : images) depth.packets.emplace_back(image.datastart, image.dataend);
     MatroskaTrack colour = depth;  // of grey, whose size is the same

@@ -1,10 +1,14 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 #include <fmt/format.h>
 
 namespace saccade {
+
+constexpr std::uint32_t kB16g =
+    'b' | '1' << 8 | '6' << 16 | 'g' << 24;  ///< codec of its depth: 16 bits, big-endian
 
 /// A calibration of Azure Kinect as the firmware writes it, with rounded numbers of a usual device.
 inline std::string calibration_json(const std::string& depth_fx = "0.492", int colour_height = 3072) {

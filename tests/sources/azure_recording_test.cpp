@@ -25,7 +25,6 @@ using ::testing::Not;
 
 const cv::Size kDepthSize(320, 288);
 const cv::Size kColourSize(1280, 720);
-constexpr std::uint32_t kB16g = 'b' | '1' << 8 | '6' << 16 | 'g' << 24;
 constexpr std::uint32_t kMjpg = 'M' | 'J' << 8 | 'P' << 16 | 'G' << 24;
 
 cv::Mat1w depth_image(int k) {

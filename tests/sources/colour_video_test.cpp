@@ -39,22 +39,11 @@ class ColourVideoTest : public VideoFiles {
 
 // The status of each position; the pictures between them are the right ones.
 std::vector<ReadStatus> read_shades(FrameSource& source) {
-  std::vector<ReadStatus> all;
-  Frame frame;
-  for (int k = 0; k < 2 * kFrames; ++k) {
-    const ReadResult read = source.read(frame, kNoWait);
-    if (read.status == ReadStatus::end) break;
-    all.push_back(read.status);
-    EXPECT_EQ(frame.index, k);
-    if (read.status == ReadStatus::rejected) {
-      EXPECT_THAT(read.reason, HasSubstr(fmt::format("frame {}: ", k)));
-      continue;
-    }
+  return read_positions(source, [](int k, const Frame& frame) {
     EXPECT_NEAR(static_cast<double>(frame.timestamp_us), k * 1e6 / 30, 1000);
     // From the luma of video to the whole range.
     EXPECT_NEAR(cv::mean(frame.colour)[0], (cv::mean(shaded_image(k))[0] - 16) * 255 / 219, 6) << k;
-  }
-  return all;
+  });
 }
 
 TEST_F(ColourVideoTest, ColourIsReadFromEveryContainerAndInTheOrderOfTime) {

@@ -7,11 +7,14 @@
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
+#include <gmock/gmock.h>
 #include <opencv2/core.hpp>
 
 #include "core/file.hpp"
 #include "core/frame_source.hpp"
 #include "tests/support/folder_test.hpp"
+#include "tests/support/no_wait.hpp"
 
 namespace saccade {
 
@@ -37,6 +40,25 @@ class VideoFiles : public FolderTest {
     write_file(path(name), content);
   }
 };
+
+/// Reads to the end, at most 2 kFrames positions: the status of each. `check(k, frame)` looks at the sound
+/// ones.
+template <typename Check>
+std::vector<ReadStatus> read_positions(FrameSource& source, const Check& check) {
+  std::vector<ReadStatus> all;
+  Frame frame;
+  for (int k = 0; k < 2 * kFrames; ++k) {
+    const ReadResult read = source.read(frame, kNoWait);
+    if (read.status == ReadStatus::end) break;
+    all.push_back(read.status);
+    EXPECT_EQ(frame.index, k);
+    if (read.status == ReadStatus::rejected)
+      EXPECT_THAT(read.reason, ::testing::HasSubstr(fmt::format("frame {}: ", k)));
+    else
+      check(k, frame);
+  }
+  return all;
+}
 
 inline std::ptrdiff_t rejected_of(const std::vector<ReadStatus>& all) {
   return std::ranges::count(all, ReadStatus::rejected);

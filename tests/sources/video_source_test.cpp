@@ -127,22 +127,11 @@ TEST_F(VideoSourceTest, Ffv1IsExactInEveryContainerAndVersion) {
 
 // What reading to the end gives: the status of each frame, and that sound ones are exact.
 std::vector<ReadStatus> read_all(FrameSource& source) {
-  std::vector<ReadStatus> all;
-  Frame frame;
-  for (int k = 0; k < 2 * kFrames; ++k) {
-    const ReadResult read = source.read(frame, kNoWait);
-    if (read.status == ReadStatus::end) break;
-    all.push_back(read.status);
-    EXPECT_EQ(frame.index, k);
-    if (read.status == ReadStatus::rejected) {
-      EXPECT_THAT(read.reason, HasSubstr(fmt::format("frame {}", k)));
-      continue;
-    }
+  return read_positions(source, [](int k, const Frame& frame) {
     cv::Mat1f expected;
     depth_image(k).convertTo(expected, CV_32F);
     EXPECT_EQ(cv::countNonZero(expected != frame.depth_mm), 0) << k;
-  }
-  return all;
+  });
 }
 
 TEST_F(VideoSourceTest, ImagesThatATruncatedFileHasLostAreRejected) {
