@@ -142,6 +142,7 @@ bool AttentionOrder::confirm(TrackedObject& object) {
   object.chosen = true;
   if (++object.times_chosen < kConfirm && !view_->first) return false;
   objects_->give_id(object);
+  object.thing = object.id;
   return true;
 }
 
@@ -152,6 +153,7 @@ void AttentionOrder::take(TrackedObject& object, const ProtoObjects& proto_objec
   object.last_reported_us = view_->frame.timestamp_us;
   object.point_cell = settle_anchor(object, proto_objects);
   inhibit(object);
+  if (object.is_part()) return;
   competition_.discount_around(object.point_cell);
   chosen_.push_back(at(objects_->owner_of(object) - 1));
 }

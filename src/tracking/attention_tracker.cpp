@@ -37,6 +37,7 @@ void AttentionTracker::attend(const Frame& frame, const cv::Mat1f& saliency, con
     memory_.clear();
     objects_.clear();
     merging_.clear();
+    parts_.clear();
     gaze_.clear();
     last_us_.reset();
   }
@@ -57,6 +58,7 @@ void AttentionTracker::attend(const Frame& frame, const cv::Mat1f& saliency, con
   objects_.predict(grid, from_world);
   shapes_.claim(grid, segments, step.to_world, seconds, objects_, memory_);
   merging_.merge(grid, segments, seconds, objects_, memory_);
+  parts_.find(grid, segments, frame.colour, seconds, objects_);
 
   // Order
   proto_objects_.begin(grid, segments, frame.depth_mm, frame.intrinsics);
@@ -111,7 +113,7 @@ void AttentionTracker::report(const AttentionOrder::View& view, const std::vecto
     const cv::Point pixel = point_of(view, object);
     Fixation fixation = fixation_at(view.saliency, frame.depth_mm, frame.intrinsics, pixel.y, pixel.x);
     const int rank = static_cast<int>(attention.fixations.size()) + 1;
-    fixation.proto_object = proto_objects_.paint(object.cells, attention.masks, rank);
+    fixation.proto_object = proto_objects_.paint(cells_of_thing(object), attention.masks, rank);
     fixation.saliency = object.mean_saliency;
     fixation.confidence = object.confidence;
     fixation.id = object.id;
@@ -123,6 +125,16 @@ void AttentionTracker::report(const AttentionOrder::View& view, const std::vecto
     attention.ended_early = chosen.empty() ? kNothingSalient : kNothingLeft;
   if (const auto doubtful = static_cast<int>(chosen.size() - reported_.size()); doubtful > 0)
     add_doubtful(doubtful, min_confidence_, attention.ended_early);
+}
+
+// The cells of an object and of all parts of the thing that it is reported for.
+const std::vector<int>& AttentionTracker::cells_of_thing(const TrackedObject& object) {
+  thing_cells_.reserve(memory_.owner().size());
+  thing_cells_ = object.cells;
+  for (const TrackedObject& other : objects_.slots())
+    if (other.alive && other.is_part() && other.thing == object.id)
+      thing_cells_.insert(thing_cells_.end(), other.cells.begin(), other.cells.end());
+  return thing_cells_;
 }
 
 // The pixel of the object's anchor: the nearest with its depth. Where it is hidden, one of the cell that

@@ -13,6 +13,7 @@
 #include "tracking/gaze.hpp"
 #include "tracking/object_memory.hpp"
 #include "tracking/object_merging.hpp"
+#include "tracking/object_parts.hpp"
 #include "tracking/object_shapes.hpp"
 #include "tracking/surface_memory.hpp"
 #include "tracking/tracking_settings.hpp"
@@ -61,6 +62,7 @@ class AttentionTracker {
              const std::vector<std::size_t>& chosen);
   float saliency_of(const AttentionOrder::View& view, const TrackedObject& object) const;
   void report(const AttentionOrder::View& view, const std::vector<std::size_t>& chosen, Attention& attention);
+  const std::vector<int>& cells_of_thing(const TrackedObject& object);
   cv::Point point_of(const AttentionOrder::View& view, const TrackedObject& object) const;
   void look(std::int64_t time_us, const std::vector<std::size_t>& chosen, SequenceState& sequence);
 
@@ -68,10 +70,12 @@ class AttentionTracker {
   double min_confidence_ = 0;
   std::optional<std::int64_t> last_us_;
   std::vector<float> scratch_, smooth_, values_;
+  std::vector<int> thing_cells_;
   SurfaceMemory memory_;
   ObjectMemory objects_;
   ObjectShapes shapes_;
   ObjectMerging merging_;
+  ObjectParts parts_;
   ProtoObjects proto_objects_;
   AttentionOrder order_;
   Gaze gaze_;

@@ -32,6 +32,12 @@ TrackedObject& ObjectMemory::add() {
   return *slot;
 }
 
+TrackedObject* ObjectMemory::find(int id) {
+  const auto found = std::find_if(slots_.begin(), slots_.end(),
+                                  [&](const TrackedObject& o) { return o.alive && o.id == id; });
+  return found == slots_.end() ? nullptr : &*found;
+}
+
 void ObjectMemory::correct(const cv::Affine3d& correction) {
   for (TrackedObject& object : slots_) {
     if (!object.alive || object.sight != Sight::visible) continue;

@@ -32,6 +32,9 @@ class ObjectMemory {
   std::vector<TrackedObject>& slots() { return slots_; }
   const std::vector<TrackedObject>& slots() const { return slots_; }
 
+  /// The object with an id; nullptr if it is not remembered.
+  TrackedObject* find(int id);
+
   /// A new candidate, in a slot that may have been another's. May move the slots.
   TrackedObject& add();
   void give_id(TrackedObject& object) { object.id = next_id_++; }

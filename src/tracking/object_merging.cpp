@@ -12,12 +12,6 @@ constexpr float kGap = 0.25F;  // of a jump; more is farther than the line
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-TrackedObject* of_id(ObjectMemory& objects, int id) {
-  const auto found = std::find_if(objects.slots().begin(), objects.slots().end(),
-                                  [&](const TrackedObject& o) { return o.alive && o.id == id; });
-  return found == objects.slots().end() ? nullptr : &*found;
-}
-
 // Has an id, and its anchor is seen on a segment that is no supporting plane.
 bool is_placed(const TrackedObject& object, const SurfaceSegments& segments) {
   if (!object.alive || object.id == 0 || object.sight != Sight::visible || object.anchor_cell < 0)
@@ -51,7 +45,7 @@ void ObjectMerging::merge(const SurfaceGrid& grid, const SurfaceSegments& segmen
     pair.seconds += pair.now ? seconds : -seconds;
     if (pair.seconds < kPatience_s) continue;
     pair.seconds = 0;
-    TrackedObject *a = of_id(objects, pair.a), *b = of_id(objects, pair.b);
+    TrackedObject *a = objects.find(pair.a), *b = objects.find(pair.b);
     if (a == nullptr || b == nullptr) continue;  // joined with a third one
     if (b->rank < a->rank) std::swap(a, b);
     join(*a, *b, objects, surfaces);

@@ -26,7 +26,8 @@ enum class AnchorSight {
 /// An object of attention as it is remembered. Places are in the world, mm.
 struct TrackedObject {
   bool alive = false;
-  int id = 0;  ///< 0 = a candidate, which has not been chosen often enough to be reported
+  int id = 0;     ///< 0 = a candidate, which has not been chosen often enough to be reported
+  int thing = 0;  ///< id of the object that is reported for the thing that it is a part of; mostly its own
 
   cv::Point3d anchor_mm;                ///< the point that attention rests on
   std::vector<cv::Point3d> surface_mm;  ///< some points of its surface as it was last seen
@@ -60,6 +61,9 @@ struct TrackedObject {
   bool disc = false;            ///< it has no segment: its cells are a disc around the anchor
   bool chosen = false;          ///< has its place in the order
   int point_cell = -1;          ///< where its point is seen: the anchor's cell, or one that stands in for it
+
+  /// Another object is reported for it.
+  bool is_part() const { return thing != id; }
 
   /// The side of a square of its area.
   double size_mm() const { return std::sqrt(area_mm2); }

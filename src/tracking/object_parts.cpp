@@ -1,0 +1,130 @@
+#include "tracking/object_parts.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace saccade {
+namespace {
+
+constexpr int kNoSlot = -1;
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+bool is_seen(const TrackedObject* object) { return object != nullptr && object->sight == Sight::visible; }
+
+}  // namespace
+
+void ObjectParts::find(const SurfaceGrid& grid, const SurfaceSegments& segments, const cv::Mat3b& colour,
+                       double seconds, ObjectMemory& objects) {
+  // Where one of the two is out of sight, nothing is learnt of them.
+  for (Pair& pair : pairs_)
+    if (is_seen(objects.find(pair.a)) && is_seen(objects.find(pair.b))) pair.left_s -= seconds;
+  if (!colour.empty()) {
+    look_at(grid, segments, colour, objects);
+    count_contacts(grid);
+    pair_up(objects);
+  }
+  std::erase_if(pairs_, [&](const Pair& pair) {
+    return pair.left_s <= 0 || objects.find(pair.a) == nullptr || objects.find(pair.b) == nullptr;
+  });
+  name_things(objects);
+}
+
+void ObjectParts::look_at(const SurfaceGrid& grid, const SurfaceSegments& segments, const cv::Mat3b& colour,
+                          const ObjectMemory& objects) {
+  looks_.assign(objects.slots().size(), {});
+  slot_of_.assign(grid.size(), kNoSlot);
+  for (std::size_t slot = 0; slot < looks_.size(); ++slot) {
+    const TrackedObject& object = objects.slots()[slot];
+    if (object.alive && object.id != 0 && is_seen(&object) && !object.disc)
+      look_at(grid, segments, colour, object, static_cast<int>(slot));
+  }
+}
+
+// The colour of a cell is that of a pixel near its middle. Bright cells count more: the colour of dark ones
+// is noise.
+void ObjectParts::look_at(const SurfaceGrid& grid, const SurfaceSegments& segments, const cv::Mat3b& colour,
+                          const TrackedObject& object, int slot) {
+  constexpr int kMiddle = SurfaceGrid::kCellPx / 2 - 1;
+  cv::Vec3d sum;
+  double brightness = 0, squares = 0;
+  int cells = 0;
+  for (const int cell : object.cells) {
+    const int segment = segments.of_cell()[at(cell)];
+    if (segment == SurfaceSegments::kNone || segments.is_supporting_plane(segment)) continue;
+    slot_of_[at(cell)] = slot;
+    const int row = std::min(colour.rows - 1, cell / grid.cols() * SurfaceGrid::kCellPx + kMiddle),
+              col = std::min(colour.cols - 1, cell % grid.cols() * SurfaceGrid::kCellPx + kMiddle);
+    const cv::Vec3d pixel(colour(row, col));
+    const double bright = std::max(1.0, pixel[0] + pixel[1] + pixel[2]);
+    sum += pixel;
+    brightness += bright;
+    squares += pixel.dot(pixel) / bright;  // = bright |chromaticity|^2
+    ++cells;
+  }
+  if (cells == 0) return;
+  Look& look = looks_[at(slot)];
+  look.colour = sum / brightness;
+  look.spread = std::sqrt(std::max(0.0, squares / brightness - look.colour.dot(look.colour)));
+  look.log_brightness = std::log(brightness / cells);
+}
+
+void ObjectParts::count_contacts(const SurfaceGrid& grid) {
+  const int slots = static_cast<int>(looks_.size()), cols = grid.cols();
+  links_.assign(looks_.size() * looks_.size(), 0);
+  const auto compare = [&](int i, int j, SurfaceGrid::Link link) {
+    const int a = slot_of_[at(i)], b = slot_of_[at(j)];
+    if (a == b) return;
+    if (a != kNoSlot) ++looks_[at(a)].outline;
+    if (b != kNoSlot) ++looks_[at(b)].outline;
+    if (a != kNoSlot && b != kNoSlot && (grid.links()[at(i)] & link) != 0)
+      ++links_[at(std::min(a, b) * slots + std::max(a, b))];
+  };
+  for (int row = 0; row < grid.rows(); ++row)
+    for (int col = 0; col < cols; ++col) {
+      const int i = row * cols + col;
+      if (col + 1 < cols) compare(i, i + 1, SurfaceGrid::kRight);
+      if (row + 1 < grid.rows()) compare(i, i + cols, SurfaceGrid::kDown);
+    }
+}
+
+bool ObjectParts::cling(std::size_t a, std::size_t b) const {
+  const int links = links_[a * looks_.size() + b];
+  const Look &one = looks_[a], &other = looks_[b];
+  return links > 0 && links >= kContact * std::min(one.outline, other.outline) &&
+         std::hypot(cv::norm(one.colour - other.colour), one.spread - other.spread) < kSameColour &&
+         std::abs(one.log_brightness - other.log_brightness) < kSameBrightness;
+}
+
+void ObjectParts::pair_up(const ObjectMemory& objects) {
+  const auto& slots = objects.slots();
+  for (std::size_t a = 0; a < slots.size(); ++a)
+    for (std::size_t b = a + 1; b < slots.size(); ++b)
+      if (cling(a, b)) note(slots[a], slots[b]);
+}
+
+void ObjectParts::note(const TrackedObject& a, const TrackedObject& b) {
+  const int first = std::min(a.id, b.id), second = std::max(a.id, b.id);
+  const auto known = std::find_if(pairs_.begin(), pairs_.end(),
+                                  [&](const Pair& pair) { return pair.a == first && pair.b == second; });
+  if (known != pairs_.end())
+    known->left_s = kKeep_s;
+  else if (std::min(a.frames_seen, b.frames_seen) <= kNewFrames)
+    pairs_.push_back({first, second});
+}
+
+// The smaller name goes along the pairs until all that hangs together has it.
+void ObjectParts::name_things(ObjectMemory& objects) const {
+  for (TrackedObject& object : objects.slots()) object.thing = object.id;
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (const Pair& pair : pairs_) {
+      TrackedObject *a = objects.find(pair.a), *b = objects.find(pair.b);
+      if (!is_seen(a) || !is_seen(b) || a->thing == b->thing) continue;
+      a->thing = b->thing = std::min(a->thing, b->thing);
+      changed = true;
+    }
+  }
+}
+
+}  // namespace saccade

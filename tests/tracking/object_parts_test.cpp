@@ -1,0 +1,142 @@
+// Objects that cling to each other and have the same colour are parts of one thing.
+#include "tracking/object_parts.hpp"
+
+#include <gtest/gtest.h>
+
+namespace saccade {
+namespace {
+
+const cv::Vec3b kWood(60, 90, 130), kDarkWood(40, 60, 87), kGreen(60, 140, 60), kBlack(4, 6, 9);
+
+// 320 x 240 pixels, 80 x 60 cells: a wall at 3 m and before it, at 1 m, three things side by side, each of 40
+// x 80 pixels, with a step of `step_mm` in depth from one to the next.
+class ObjectPartsTest : public ::testing::Test {
+ protected:
+  ObjectPartsTest() { build(0); }
+
+  void build(float step_mm) {
+    cv::Mat1f depth(240, 320, 3000.0F);
+    for (int k = 0; k < 3; ++k) depth(place(k)) = 1000.0F + step_mm * static_cast<float>(k);
+    grid_.build(depth, Intrinsics::guess_for(depth.size()));
+    segments_.grow(grid_);
+  }
+
+  static cv::Rect place(int k) { return {100 + 40 * k, 80, 40, 80}; }
+
+  // The object on the k-th thing.
+  int add(int k, const cv::Vec3b& colour) {
+    TrackedObject& object = objects_.add();
+    objects_.give_id(object);
+    object.sight = Sight::visible;
+    for (int row = place(k).y; row < place(k).br().y; row += 4)
+      for (int col = place(k).x; col < place(k).br().x; col += 4)
+        object.cells.push_back(row / 4 * 80 + col / 4);
+    colour_(place(k)) = colour;
+    return object.id;
+  }
+
+  // Frames of 0.1 s.
+  void watch(int frames) {
+    for (int k = 0; k < frames; ++k) {
+      for (TrackedObject& object : objects_.slots()) ++object.frames_seen;
+      parts_.find(grid_, segments_, colour_, 0.1, objects_);
+    }
+  }
+
+  int thing_of(int id) { return objects_.find(id)->thing; }
+
+  SurfaceGrid grid_;
+  SurfaceSegments segments_;
+  cv::Mat3b colour_ = cv::Mat3b(240, 320, cv::Vec3b(200, 200, 200));
+  ObjectMemory objects_{30};
+  ObjectParts parts_;
+};
+
+TEST_F(ObjectPartsTest, WhatClingsAndHasOneColourIsOneThing) {
+  const int a = add(0, kWood), c = add(2, kWood), b = add(1, kDarkWood);
+  watch(1);
+  EXPECT_EQ(thing_of(a), a) << "the oldest";
+  EXPECT_EQ(thing_of(b), a);
+  EXPECT_EQ(thing_of(c), a) << "by the one between them";
+  EXPECT_FALSE(objects_.find(a)->is_part());
+  EXPECT_TRUE(objects_.find(c)->is_part());
+}
+
+TEST_F(ObjectPartsTest, AnotherColourIsAnotherThing) {
+  const int a = add(0, kWood), b = add(1, kGreen), c = add(2, kBlack);
+  watch(3);
+  for (const int id : {a, b, c}) EXPECT_EQ(thing_of(id), id);
+}
+
+// Stripes have the mean of their colours, but not their spread.
+TEST_F(ObjectPartsTest, ColoursThatAreTheSameOnAverageAreNot) {
+  const int a = add(0, {93, 93, 93}), b = add(1, {93, 93, 93});
+  cv::Mat3b striped = colour_(place(1));
+  for (int row = 0; row < striped.rows; ++row)
+    striped.row(row) = row / 4 % 2 == 0 ? cv::Vec3b(40, 100, 140) : cv::Vec3b(146, 86, 46);
+  watch(3);
+  EXPECT_EQ(thing_of(a), a);
+  EXPECT_EQ(thing_of(b), b);
+}
+
+TEST_F(ObjectPartsTest, AStepInDepthParts) {
+  build(60);
+  const int a = add(0, kWood), b = add(1, kWood);
+  watch(3);
+  EXPECT_EQ(thing_of(a), a);
+  EXPECT_EQ(thing_of(b), b);
+}
+
+TEST_F(ObjectPartsTest, WithoutColourNothingIsKnown) {
+  add(0, kWood);
+  const int b = add(1, kWood);
+  colour_.release();
+  watch(3);
+  EXPECT_EQ(thing_of(b), b);
+}
+
+TEST_F(ObjectPartsTest, WhatWasReportedForAWhileStaysItself) {
+  const int a = add(0, kWood), b = add(1, kGreen);
+  watch(ObjectParts::kNewFrames);
+  colour_(place(1)) = kWood;
+  watch(20);
+  EXPECT_EQ(thing_of(b), b);
+  const int c = add(2, kWood);
+  watch(1);
+  EXPECT_EQ(thing_of(c), b) << "but what comes to it is its part";
+  EXPECT_EQ(thing_of(a), a);
+}
+
+TEST_F(ObjectPartsTest, PartsThatComeApartAreThingsAfterAWhile) {
+  const int a = add(0, kWood), b = add(1, kWood);
+  watch(1);
+  build(60);
+  watch(29);
+  EXPECT_EQ(thing_of(b), a);
+  watch(2);
+  EXPECT_EQ(thing_of(b), b);
+}
+
+TEST_F(ObjectPartsTest, AnotherPartIsReportedWhileTheFirstIsHidden) {
+  const int a = add(0, kWood), b = add(1, kWood), c = add(2, kWood);
+  watch(1);
+  objects_.find(a)->sight = Sight::hidden;
+  watch(50);
+  EXPECT_EQ(thing_of(b), b);
+  EXPECT_EQ(thing_of(c), b);
+  objects_.find(a)->sight = Sight::visible;
+  watch(1);
+  EXPECT_EQ(thing_of(c), a) << "what is out of sight is not forgotten";
+}
+
+TEST_F(ObjectPartsTest, ClearBeginsAgain) {
+  add(0, kWood);
+  const int b = add(1, kWood);
+  watch(ObjectParts::kNewFrames);
+  parts_.clear();
+  watch(2);
+  EXPECT_EQ(thing_of(b), b);
+}
+
+}  // namespace
+}  // namespace saccade
