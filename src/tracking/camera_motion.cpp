@@ -28,6 +28,10 @@ constexpr double kMostShift_m = 0.6, kMostTurn_degrees = 40;
 constexpr double kAgreement = 0.6, kOverlap = 0.3;
 constexpr float kSameDepth = 0.03F;  // of the depth
 
+// After a gap a match is believed only if no more than this share of the cells of frame and view, the two
+// shares added, lies where the other sees through. The same scene has up to .045, another table .12 and more.
+constexpr double kMostThrough = 0.06;
+
 // Share of the scatter of normals below which the motion along a direction is unseen, or uncertain. An
 // uncertain motion is doubted if it is larger than kDoubted_mm.
 constexpr double kUnseen = 0.01, kUncertain = 0.03, kDoubted_mm = 30;
@@ -99,7 +103,7 @@ bool same_camera(const Intrinsics& a, const Intrinsics& b) {
 CameraMotion::CameraMotion() = default;
 CameraMotion::~CameraMotion() = default;
 
-CameraStep CameraMotion::follow(const SurfaceGrid& grid, const cv::Mat3b& colour) {
+CameraStep CameraMotion::follow(const SurfaceGrid& grid, const cv::Mat3b& colour, bool after_gap) {
   const cv::Size cells(grid.cols(), grid.rows());
   if (cells != cells_ || !same_camera(grid.camera(), camera_)) {
     cells_ = cells;
@@ -113,6 +117,7 @@ CameraStep CameraMotion::follow(const SurfaceGrid& grid, const cv::Mat3b& colour
     return still;
   }
   const FramePtr frame = prepare(grid, colour);
+  after_gap_ = after_gap;
   blind_ = measure_blindness(grid);
   if (views_.empty()) return begin(frame);
   const cv::Affine3d before = to_view_;
@@ -208,7 +213,11 @@ std::optional<cv::Affine3d> CameraMotion::relate(const FramePtr& frame, const Vi
   if (!(colour ? with_colour_ : depth_alone_)->compute(from, to, motion, cv::Mat(in_metres(guess))))
     return std::nullopt;
   const cv::Affine3d to_view = in_mm(motion);
-  if (agreement(frame->depth, view.frame->depth, to_view) < kAgreement) return std::nullopt;
+  const Agreement there = agreement(frame->depth, view.frame->depth, to_view);
+  if (there.same < kAgreement) return std::nullopt;
+  if (after_gap_ &&
+      there.through + agreement(view.frame->depth, frame->depth, inverse(to_view)).through > kMostThrough)
+    return std::nullopt;
   return to_view;
 }
 
@@ -219,7 +228,8 @@ cv::Affine3d CameraMotion::believable(const FramePtr& frame, const cv::Affine3d&
   const cv::Affine3d certain = stand_still(motion, to_view_, blind_.uncertain);
   if (cv::norm(seen.translation() - certain.translation()) <= kDoubted_mm) return seen;
   const cv::Mat1f there = views_[view_].frame->depth;
-  return agreement(frame->depth, there, seen) > agreement(frame->depth, there, certain) ? seen : certain;
+  return agreement(frame->depth, there, seen).same > agreement(frame->depth, there, certain).same ? seen
+                                                                                                  : certain;
 }
 
 // The motion without its part along some directions of the frame's camera. If these are two, one plane is
@@ -240,13 +250,12 @@ cv::Affine3d CameraMotion::stand_still(const cv::Affine3d& motion, const cv::Aff
   return {rotation, before.translation() + shift};
 }
 
-// Of the cells that both see, the share whose depth is as predicted; 0 if they are too few. Every fourth
-// cell.
-double CameraMotion::agreement(const cv::Mat1f& seen_m, const cv::Mat1f& view_m,
-                               const cv::Affine3d& to_view) const {
+// Every fourth cell.
+CameraMotion::Agreement CameraMotion::agreement(const cv::Mat1f& seen_m, const cv::Mat1f& view_m,
+                                                const cv::Affine3d& to_view) const {
   constexpr int kEvery = 2;
   const cv::Matx44d motion = in_metres(to_view);
-  int valid = 0, both = 0, same = 0;
+  int valid = 0, both = 0, same = 0, through = 0;
   for (int r = 0; r < seen_m.rows; r += kEvery)
     for (int c = 0; c < seen_m.cols; c += kEvery) {
       const double z = static_cast<double>(seen_m(r, c));
@@ -261,9 +270,12 @@ double CameraMotion::agreement(const cv::Mat1f& seen_m, const cv::Mat1f& view_m,
       const double there = static_cast<double>(view_m(row, col));
       if (!(there > 0)) continue;
       ++both;
-      if (std::abs(there - q[2]) <= static_cast<double>(kSameDepth) * q[2]) ++same;
+      const double farther = there - q[2], reach = static_cast<double>(kSameDepth) * q[2];
+      same += std::abs(farther) <= reach;
+      through += farther > reach;
     }
-  return both >= kOverlap * valid && both > 0 ? static_cast<double>(same) / both : 0;
+  if (both < kOverlap * valid || both == 0) return {};
+  return {static_cast<double>(same) / both, static_cast<double>(through) / both};
 }
 
 // The view is left: a known one that is seen again takes its place, or else this frame does.

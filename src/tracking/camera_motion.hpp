@@ -54,7 +54,10 @@ class CameraMotion {
   /// The step from the frame before. `colour`: H x W of the frame that the grid is built from, BGR; empty =
   /// depth alone. The first frame begins the world without a cut; a frame of another size or camera than the
   /// one before is a cut. A frame with hardly any readings says nothing: the camera is taken to stand still.
-  CameraStep follow(const SurfaceGrid& grid, const cv::Mat3b& colour);
+  /// after_gap: the source gave nothing for a while, so this may be another scene that shares its large
+  /// planes with the last one. Then a view matches only if hardly any surface of the one lies where the other
+  /// saw through.
+  CameraStep follow(const SurfaceGrid& grid, const cv::Mat3b& colour, bool after_gap = false);
 
   /// Unit directions in a frame's camera along which its surfaces say nothing, or little, of the motion; at
   /// most two each, and the former among the latter.
@@ -74,6 +77,12 @@ class CameraMotion {
     cv::Affine3d to_world;
   };
 
+  // Of the cells that a frame and a view both see, if these are enough; else 0.
+  struct Agreement {
+    double same = 0;     // share that lies at the predicted depth
+    double through = 0;  // share that lies where the view saw a farther surface: it was not there
+  };
+
   FramePtr prepare(const SurfaceGrid& grid, const cv::Mat3b& colour) const;
   void set_camera(const SurfaceGrid& grid);
   CameraStep begin(const FramePtr& frame);
@@ -83,7 +92,7 @@ class CameraMotion {
   cv::Affine3d believable(const FramePtr& frame, const cv::Affine3d& motion) const;
   cv::Affine3d stand_still(const cv::Affine3d& motion, const cv::Affine3d& before,
                            const std::vector<cv::Vec3d>& directions) const;
-  double agreement(const cv::Mat1f& seen_m, const cv::Mat1f& view_m, const cv::Affine3d& to_view) const;
+  Agreement agreement(const cv::Mat1f& seen_m, const cv::Mat1f& view_m, const cv::Affine3d& to_view) const;
   void change_view(const FramePtr& frame, CameraStep& step);
   std::optional<std::size_t> known_view_near(const cv::Affine3d& to_world) const;
 
@@ -95,6 +104,7 @@ class CameraMotion {
   cv::Affine3d to_view_, velocity_;  // of the frame before
   Blindness blind_;                  // of the present frame
   bool started_ = false;
+  bool after_gap_ = false;  // of the present frame
 };
 
 }  // namespace saccade

@@ -12,6 +12,9 @@ namespace saccade {
 /// one thread calls.
 class FrameFollower {
  public:
+  /// After a longer time without a frame, the scene may be another one: the sensor was away.
+  static constexpr double kGap_s = 1;
+
   FrameFollower();
 
   /// Starts on the next frame, which must stay as it is until wait(). A frame whose index or time does not
@@ -30,6 +33,7 @@ class FrameFollower {
 
   const Frame* frame_ = nullptr;  // of the present job
   std::int64_t last_index_ = -1, last_us_ = 0;
+  bool after_gap_ = false;  // the present job's frame came after a gap
   FrameSurfaces surfaces_;
   CameraMotion motion_;
   CameraStep step_;

@@ -244,6 +244,18 @@ TEST_F(AttentionTrackerTest, AGapInTimeIsNoCutWhereTheSceneIsTheSame) {
   EXPECT_EQ(ids(), before);
 }
 
+// The sensor is plugged in again before another table.
+TEST_F(AttentionTrackerTest, AfterAGapAnotherSceneIsACutWithNewIds) {
+  watch({});
+  for (int k = 0; k < 6; ++k) see(k);
+  const int next = tracker_->next_id();
+  scene_.emplace(Options{.seed = 4});
+  const Attention& after = see(250);
+  EXPECT_TRUE(after.sequence->cut);
+  ASSERT_FALSE(after.fixations.empty());
+  for (const Fixation& fixation : after.fixations) EXPECT_GE(fixation.id, next);
+}
+
 TEST_F(AttentionTrackerTest, FramesThatWereDroppedAreTimeThatPassed) {
   watch({});
   see(0);

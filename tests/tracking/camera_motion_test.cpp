@@ -19,6 +19,11 @@ class CameraMotionTest : public ::testing::Test {
     return motion_.follow(grid_, colour);
   }
 
+  CameraStep follow_after_gap(const Frame& frame) {
+    grid_.build(frame.depth_mm, frame.intrinsics);
+    return motion_.follow(grid_, frame.colour, true);
+  }
+
   // How far a point 1 m before the camera is from where it is by the truth, mm.
   static double error_mm(const cv::Affine3d& pose, const cv::Affine3d& truth) {
     return cv::norm(pose * cv::Point3d(0, 0, 1000) - truth * cv::Point3d(0, 0, 1000));
@@ -70,6 +75,28 @@ TEST_F(CameraMotionTest, TheFirstFrameIsNoCutAnotherSceneIs) {
   EXPECT_TRUE(step.cut);
   EXPECT_EQ(step.to_world.matrix, cv::Affine3d::Identity().matrix) << "the world begins again";
   EXPECT_FALSE(follow(room.frame(3)).cut);
+}
+
+// Other tables share table, floor and wall with this one: more than 80 % of the cells are where they were.
+TEST_F(CameraMotionTest, AfterAGapAnotherTableIsACutTheSameIsNot) {
+  for (const std::uint64_t other : {4U, 5U, 6U}) {
+    motion_.restart();
+    WatchedScene table({.scene = "table", .camera = scene::CameraPath::orbit});
+    follow(table.frame(0));
+    EXPECT_FALSE(follow_after_gap(table.frame(30)).cut) << "from another place";
+    WatchedScene another({.scene = "table", .seed = other, .camera = scene::CameraPath::orbit});
+    EXPECT_TRUE(follow_after_gap(another.frame(30)).cut) << other;
+    EXPECT_FALSE(follow(another.frame(31)).cut);
+  }
+}
+
+TEST_F(CameraMotionTest, AfterAGapOneObjectMoreOrLessIsNoCut) {
+  for (const scene::EventKind event : {scene::EventKind::add, scene::EventKind::take}) {
+    motion_.restart();
+    WatchedScene table({.scene = "table", .event = event});
+    follow(table.frame(0));
+    EXPECT_FALSE(follow_after_gap(table.frame(120)).cut);
+  }
 }
 
 TEST_F(CameraMotionTest, AnotherCameraOrARestartIsACut) {
