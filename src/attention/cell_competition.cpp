@@ -27,6 +27,18 @@ void mean_of_cells(const cv::Mat1f& saliency, int rows, int cols, std::vector<fl
   }
 }
 
+// The largest of `count` values >= 0; 0 if there are none. In lanes, so that compilers make vectors of it.
+float largest_of(const float* values, int count) {
+  constexpr int kLanes = 8;
+  std::array<float, kLanes> best{};
+  int i = 0;
+  for (; i + kLanes <= count; i += kLanes)
+    for (std::size_t k = 0; k < kLanes; ++k)
+      best[k] = values[at(i) + k] > best[k] ? values[at(i) + k] : best[k];
+  for (; i < count; ++i) best[0] = std::max(best[0], values[i]);
+  return *std::max_element(best.begin(), best.end());
+}
+
 }  // namespace
 
 void smooth_cells(const cv::Mat1f& saliency, std::vector<float>& scratch, std::vector<float>& smooth) {
@@ -78,30 +90,28 @@ bool CellCompetition::is_inner(int cell) const {
 }
 
 void CellCompetition::update_row(int row) {
-  const auto begin = value_.begin() + row * cols_;
-  row_best_[at(row)] = cols_ > 0 ? *std::max_element(begin, begin + cols_) : 0;
+  row_best_[at(row)] = largest_of(value_.data() + row * cols_, cols_);
 }
 
 void CellCompetition::make_return_table() {
   const float sigma = kReturnReach * static_cast<float>(cols_);
-  return_table_.resize(at(std::max(rows_, cols_)));
-  for (std::size_t d = 0; d < return_table_.size(); ++d) {
+  const int reach = std::max(rows_, cols_);
+  return_table_.resize(at(2 * reach + 1));
+  for (int d = 0; d <= reach; ++d) {
     const float x = static_cast<float>(d) / sigma;
-    return_table_[d] = std::exp(-0.5F * x * x);
+    return_table_[at(reach + d)] = return_table_[at(reach - d)] = std::exp(-0.5F * x * x);
   }
 }
 
 void CellCompetition::discount_around(int cell) {
   const int row = cell / cols_, col = cell % cols_;
+  const int middle = std::max(rows_, cols_);
+  const float* const along_row = &return_table_[at(middle - col)];
   for (int r = 0; r < rows_; ++r) {
-    const float depth = kReturnDepth * return_table_[at(std::abs(r - row))];
+    const float depth = kReturnDepth * return_table_[at(middle + r - row)];
     float* value = &value_[at(r * cols_)];
-    float best = 0;
-    for (int c = 0; c < cols_; ++c) {
-      value[c] *= 1 - depth * return_table_[at(std::abs(c - col))];
-      best = std::max(best, value[c]);
-    }
-    row_best_[at(r)] = best;
+    for (int c = 0; c < cols_; ++c) value[c] *= 1 - depth * along_row[c];
+    update_row(r);
   }
 }
 

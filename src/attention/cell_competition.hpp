@@ -50,7 +50,7 @@ class CellCompetition {
   int rows_ = 0, cols_ = 0;
   std::vector<float> value_;
   std::vector<float> row_best_;           // largest value of each row
-  std::vector<float> return_table_;       // exp(-d^2 / 2 s^2) by d in cells
+  std::vector<float> return_table_;       // exp(-d^2 / 2 s^2) by d in cells, d = 0 in its middle
   std::vector<unsigned char> inhibited_;  // by cell; those of the present inhibit()
 };
 
