@@ -1,8 +1,12 @@
 #include "tracking/attention_tracker.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
 #include <map>
 #include <optional>
 #include <set>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -312,6 +316,50 @@ TEST_F(AttentionTrackerTest, OrderChangesByAMarginOnly) {
     EXPECT_EQ(see(k, 0, -0.05F).fixations.front().id, first) << "a little weaker than others";
   for (int k = 60; k < 150; ++k) see(k, 0, -0.9F / static_cast<float>(scene_->objects()));
   EXPECT_NE(attention_.fixations.front().id, first) << "much weaker";
+}
+
+// The two sides of a valley are two objects by their shape. Colours: of the left and the right side.
+std::vector<Attention> look_at_valley(const cv::Vec3b& left, const cv::Vec3b& right, int frames) {
+  cv::setNumThreads(1);
+  const cv::Rect thing(120, 80, 80, 80);
+  Frame frame;
+  frame.depth_mm = cv::Mat1f(240, 320, 3000.0F);
+  frame.colour = cv::Mat3b(240, 320, cv::Vec3b(128, 128, 128));
+  frame.intrinsics = Intrinsics::guess_for(frame.size());
+  cv::Mat1f map(240, 320, 0.0F);
+  for (int r = thing.y; r < thing.br().y; ++r)
+    for (int c = thing.x; c < thing.br().x; ++c) {
+      frame.depth_mm(r, c) = static_cast<float>(1000 - 1.5 * std::abs(c - 160));
+      frame.colour(r, c) = c < 160 ? left : right;
+      for (const int middle : {135, 185})
+        map(r, c) += std::max(0.0F, 1 - 0.125F * static_cast<float>(std::hypot(r - 120, c - middle)));
+    }
+  FrameFollower follower;
+  AttentionTracker tracker(10, 0, {});
+  std::vector<Attention> all(static_cast<std::size_t>(frames));
+  for (Attention& attention : all) {
+    follower.start(frame);
+    follower.wait();
+    tracker.attend(frame, map, follower.surfaces(), follower.step(), attention);
+    ++frame.index;
+    frame.timestamp_us += 33'000;
+  }
+  return all;
+}
+
+TEST(AttentionTracker, PartsOfOneThingHaveOneFixationAndOneMask) {
+  const auto frames = look_at_valley({60, 90, 130}, {60, 90, 130}, 5);
+  ASSERT_EQ(frames.front().fixations.size(), 2U) << "as in a single frame";
+  ASSERT_EQ(frames.back().fixations.size(), 1U);
+  const Fixation& thing = frames.back().fixations.front();
+  EXPECT_EQ(thing.id, 1);
+  EXPECT_GT(thing.proto_object.pixels, 1.8 * frames.front().fixations.front().proto_object.pixels);
+  EXPECT_EQ(cv::countNonZero(frames.back().masks), thing.proto_object.pixels);
+}
+
+TEST(AttentionTracker, AnotherColourIsAnotherFixation) {
+  for (const Attention& attention : look_at_valley({60, 90, 130}, {60, 140, 60}, 5))
+    EXPECT_EQ(attention.fixations.size(), 2U);
 }
 
 TEST(AttentionTracker, NeedsAFixation) { EXPECT_THROW(AttentionTracker(0, 0, {}), std::invalid_argument); }
