@@ -9,7 +9,9 @@ if(SACCADE_WERROR)
   target_compile_options(saccade_flags INTERFACE -Werror)
 endif()
 if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
-  target_compile_options(saccade_flags INTERFACE -Wno-restrict)  # GCC 12 warns falsely of "x" + std::string
+  # GCC 12 warns falsely of strings.
+  target_compile_options(saccade_flags INTERFACE
+    -Wno-array-bounds -Wno-restrict -Wno-stringop-overflow -Wno-stringop-overread)
 endif()
 # Results must not depend on the compiler: multiplications and additions are fused only where the code says so.
 target_compile_options(saccade_flags INTERFACE -ffp-contract=off)
@@ -31,6 +33,18 @@ target_link_libraries(saccade_opencv INTERFACE opencv_core opencv_imgproc $<INST
 target_include_directories(saccade_opencv SYSTEM INTERFACE $<BUILD_INTERFACE:${OpenCV_INCLUDE_DIRS}>)
 set_target_properties(saccade_opencv PROPERTIES EXPORT_NAME opencv)
 
+# The large headers that most files include, precompiled once for all libraries: it halves the time of most files. Each
+# file includes what it needs all the same, which the preset tidy checks, where nothing is precompiled.
+file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/headers.cpp CONTENT "// Only for its precompiled headers.\n")
+add_library(saccade_headers OBJECT ${PROJECT_BINARY_DIR}/headers.cpp)
+target_link_libraries(saccade_headers PRIVATE saccade_flags saccade_opencv fmt::fmt)
+target_compile_features(saccade_headers PRIVATE cxx_std_20)
+set_target_properties(saccade_headers PROPERTIES POSITION_INDEPENDENT_CODE ON)
+target_precompile_headers(saccade_headers PRIVATE
+  <algorithm> <array> <chrono> <cmath> <cstdint> <filesystem> <functional> <map> <memory> <mutex> <optional> <span>
+  <string> <string_view> <thread> <utility> <variant> <vector> <fmt/format.h> <opencv2/core.hpp>)
+target_compile_definitions(saccade_flags INTERFACE FMT_SHARED)  # by all as by fmt::fmt, or the compiler refuses them
+
 # saccade_library(NAME SOURCES file... LINK target... PRIVATE_LINK target...): the library saccade::NAME of one folder.
 # cmake/package.cmake says which of them are installed.
 function(saccade_library name)
@@ -44,4 +58,5 @@ function(saccade_library name)
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src> $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>)
   target_compile_features(saccade_${name} PUBLIC cxx_std_20)
   set_target_properties(saccade_${name} PROPERTIES POSITION_INDEPENDENT_CODE ON EXPORT_NAME ${name})
+  target_precompile_headers(saccade_${name} REUSE_FROM saccade_headers)
 endfunction()

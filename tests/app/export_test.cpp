@@ -11,6 +11,7 @@
 #include "core/png.hpp"
 #include "sources/open_source.hpp"
 #include "tests/support/no_wait.hpp"
+#include "tests/support/places.hpp"
 #include "tests/support/subprocess.hpp"
 
 namespace saccade {
@@ -20,7 +21,7 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 using ::testing::HasSubstr;
 
-const std::string kTable = SACCADE_SOURCE_DIR "/recordings/table.oni";
+const std::string kTable = in_source("recordings/table.oni");
 
 std::vector<Frame> read_all(const std::string& uri, const SourceOptions& options = {}) {
   const auto source = open_source(uri, options);

@@ -16,6 +16,7 @@
 
 #include "oni/check.hpp"
 #include "oni/recording.hpp"
+#include "tests/support/places.hpp"
 #include "tests/support/subprocess.hpp"
 
 namespace saccade {
@@ -169,7 +170,7 @@ TEST_F(LiveTest, ARelativePathOfADeviceStartsAtTheWorkingDirectory) {
   bool allowed = false;
   std::thread([&allowed] { allowed = ::unshare(CLONE_FS) == 0; }).join();
   if (!allowed) GTEST_SKIP() << "threads may not have a working directory of their own here";
-  std::filesystem::copy(SACCADE_SOURCE_DIR "/recordings/table.oni", in("a.oni"));
+  std::filesystem::copy(in_source("recordings/table.oni"), in("a.oni"));
   ::setenv("SACCADE_VIRTUAL_DEVICE", "a.oni", 1);
   const auto before = std::filesystem::current_path();
   std::filesystem::current_path(folder_);

@@ -13,6 +13,7 @@
 #include "app/run_command.hpp"
 #include "app/view_command.hpp"
 #include "core/error.hpp"
+#include "tests/support/places.hpp"
 
 namespace saccade {
 namespace {
@@ -91,8 +92,8 @@ TEST(Options, ASettingThatACommandDoesNotAcceptIsAUsageError) {
 }
 
 TEST(Options, OfTheCommandLineOverrideTheFileWhereverTheyStand) {
-  for (const char* line : {"--kernel 9 --config " SACCADE_SOURCE_DIR "/config/paper.toml",
-                           "--config " SACCADE_SOURCE_DIR "/config/paper.toml --kernel 9"}) {
+  const std::string file = "--config " + in_source("config/paper.toml");
+  for (const std::string& line : {"--kernel 9 " + file, file + " --kernel 9"}) {
     CLI::App app{"", "bench"};
     const SettingsOptions options(app, {{Scope::model}});
     app.parse(line);

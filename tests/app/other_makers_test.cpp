@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/file.hpp"
+#include "tests/support/places.hpp"
 #include "tests/support/subprocess.hpp"
 
 namespace saccade {
@@ -23,7 +24,7 @@ class OtherMakersTest : public ProgramTest {
  protected:
   void SetUp() override {
     ProgramTest::SetUp();
-    const fs::path drivers = "openni2/OpenNI2/Drivers", ours = fs::path(SACCADE_PROGRAM).parent_path();
+    const fs::path drivers = "openni2/OpenNI2/Drivers", ours = fs::path(saccade_program()).parent_path();
     fs::create_directories(folder_ / drivers);
     fs::create_symlink(ours / "openni2/libOpenNI2.so.0", folder_ / "openni2/libOpenNI2.so.0");
     for (const auto& entry : fs::directory_iterator(ours / drivers))

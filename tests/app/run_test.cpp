@@ -11,6 +11,7 @@
 #include "core/file.hpp"
 #include "core/png.hpp"
 #include "saliency/symmetry3d.hpp"
+#include "tests/support/places.hpp"
 #include "tests/support/subprocess.hpp"
 
 namespace saccade {
@@ -158,9 +159,8 @@ TEST_F(RunTest, TheCommandLineOverridesTheConfigFile) {
 }
 
 TEST_F(RunTest, PaperConfigRunsTheNetwork) {
-  const ProgramResult outcome =
-      run_saccade({"run", "synthetic:table?frames=1", "--out", in("out"), "--config",
-                   SACCADE_SOURCE_DIR "/config/paper.toml", "--dump", "none"});
+  const ProgramResult outcome = run_saccade({"run", "synthetic:table?frames=1", "--out", in("out"),
+                                             "--config", in_source("config/paper.toml"), "--dump", "none"});
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   const json frame = lines("out/fixations.jsonl")[0];
   ASSERT_FALSE(frame["fixations"].empty());
@@ -203,7 +203,7 @@ TEST_F(RunTest, DepthWithoutAnyReadingGivesAZeroMapAndNoFixations) {
 // The whole chain as ./run shows it: recording, operator, attention; the first points are on different
 // objects.
 TEST_F(RunTest, TheObjectsOfTheBundledRecordingAreFoundOneByOne) {
-  const std::string recordings = SACCADE_SOURCE_DIR "/recordings/";
+  const std::string recordings = in_source("recordings/");
   const ProgramResult outcome =
       run_saccade({"run", recordings + "table.oni", "--out", in("out"), "--dump", "none"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;

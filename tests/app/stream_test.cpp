@@ -7,6 +7,7 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
+#include "tests/support/places.hpp"
 #include "tests/support/subprocess.hpp"
 
 namespace saccade {
@@ -18,7 +19,7 @@ using ::testing::HasSubstr;
 class StreamTest : public ProgramTest {
  protected:
   ProgramResult shell(const std::string& command) const {
-    return run_program("sh", {"-c", "P=" SACCADE_PROGRAM "; cd " + folder_.string() + "; " + command});
+    return run_program("sh", {"-c", "P=" + saccade_program() + "; cd " + folder_.string() + "; " + command});
   }
   json manifest() const { return json::parse(text("o/manifest.json")); }
 };

@@ -11,6 +11,7 @@
 
 #include "core/file.hpp"
 #include "core/png.hpp"
+#include "tests/support/places.hpp"
 #include "tests/support/subprocess.hpp"
 
 namespace saccade {
@@ -30,7 +31,7 @@ class WrongInputs : public ProgramTest {
   // Runs a shell command, in which "$P" is the program, in the folder of the test.
   ProgramResult shell(const std::string& command) const {
     return run_program(
-        "bash", {"-c", fmt::format("P='{}'; cd '{}'; {}", SACCADE_PROGRAM, folder_.string(), command)});
+        "bash", {"-c", fmt::format("P='{}'; cd '{}'; {}", saccade_program(), folder_.string(), command)});
   }
 
   void expect(int status, const std::string& part, const std::string& command) const {

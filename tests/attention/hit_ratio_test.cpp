@@ -10,12 +10,13 @@
 
 #include "attention/attention.hpp"
 #include "saliency/symmetry3d.hpp"
+#include "tests/support/places.hpp"
 
 namespace saccade {
 namespace {
 
 constexpr int kMost = 10;
-const std::filesystem::path kScenes = std::filesystem::path(SACCADE_SHARED_DIR) / "data/osd_learn";
+const std::filesystem::path kScenes = in_shared("data/osd_learn");
 
 struct HitRatio {
   std::array<double, kMost> hit{}, bound{};  ///< sums over the images, of n = 1..10

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <map>
 
+#include "tests/support/places.hpp"
 #include "virtual_device_fixture.hpp"
 
 namespace saccade {
@@ -22,8 +23,9 @@ TEST_F(VirtualDeviceTest, IsListedOnlyWhenAskedFor) {
 }
 
 TEST_F(VirtualDeviceTest, AnUnplayableSourceGivesOneLineAndNoDevice) {
-  for (const char* text : {"/no/such/folder", "synthetic:table?sead=3", "synthetic:table?loss=lost",
-                           "openni2", SACCADE_SOURCE_DIR "/README.md"}) {
+  for (const std::string& text :
+       std::vector<std::string>{"/no/such/folder", "synthetic:table?sead=3", "synthetic:table?loss=lost",
+                                "openni2", in_source("README.md")}) {
     ::testing::internal::CaptureStderr();
     offer(text);
     const std::string err = ::testing::internal::GetCapturedStderr();
@@ -37,7 +39,7 @@ TEST_F(VirtualDeviceTest, AnUnplayableSourceGivesOneLineAndNoDevice) {
 TEST_F(VirtualDeviceTest, ARelativePathIsSeenFromTheFolderOfTheShell) {
   const char* pwd = std::getenv("PWD");
   const std::optional<std::string> before = pwd != nullptr ? std::optional<std::string>(pwd) : std::nullopt;
-  ::setenv("PWD", SACCADE_SOURCE_DIR, 1);
+  ::setenv("PWD", in_source("").c_str(), 1);
   offer("recordings/table.oni");
   EXPECT_THAT(uris(), Contains(kUri));
   if (before)

@@ -9,6 +9,7 @@
 
 #include "core/file.hpp"
 #include "core/png.hpp"
+#include "tests/support/places.hpp"
 #include "tests/support/subprocess.hpp"
 
 namespace saccade {
@@ -216,8 +217,8 @@ TEST_F(EvalTest, TheBatchScriptRunsUnderGnuParallel) {
     GTEST_SKIP() << "parallel is not installed";
   const fs::path program = folder_ / "bin/saccade";
   fs::create_directory(folder_ / "bin");
-  fs::create_symlink(SACCADE_PROGRAM, program);
-  const std::string script = SACCADE_SOURCE_DIR "/src/eval/cluster.sh";
+  fs::create_symlink(saccade_program(), program);
+  const std::string script = in_source("src/eval/cluster.sh");
   const std::string line = "PATH=" + in("bin") +
                            ":$PATH SHARDS=3 parallel --will-cite -q -j 2 env SLURM_ARRAY_TASK_ID={} bash " +
                            script + " eval '" + kScenes + "' " + in("out") +

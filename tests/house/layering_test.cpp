@@ -6,6 +6,7 @@
 
 #include "core/file.hpp"
 #include "tests/support/folder_test.hpp"
+#include "tests/support/places.hpp"
 
 namespace saccade {
 namespace {
@@ -33,12 +34,12 @@ const Floors kHouse = {
 };
 
 TEST(House, NoIncludeRunsUpwards) {
-  const std::vector<Include> includes = find_includes(SACCADE_SOURCE_DIR);
+  const std::vector<Include> includes = find_includes(in_source(""));
   EXPECT_GT(includes.size(), 500U);
   EXPECT_THAT(find_upward(includes, kHouse), IsEmpty());
 }
 
-TEST(House, NoCircles) { EXPECT_THAT(find_circles(find_includes(SACCADE_SOURCE_DIR)), IsEmpty()); }
+TEST(House, NoCircles) { EXPECT_THAT(find_circles(find_includes(in_source(""))), IsEmpty()); }
 
 // The check itself, on a house of three rooms.
 class Layering : public FolderTest {

@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/support/places.hpp"
 #include "tests/support/subprocess.hpp"
 
 namespace saccade {
@@ -22,7 +23,7 @@ void expect_fixed(const fs::path& file) {
 TEST(RunPath, OfEverythingThatIsBuilt) {
   std::vector<fs::path> binaries = find_binaries(BUILD_FOLDER);
   std::erase(binaries, fs::path(BAD_RUN_PATH));
-  EXPECT_EQ(std::ranges::count(binaries, fs::path(SACCADE_PROGRAM)), 1);
+  EXPECT_EQ(std::ranges::count(binaries, fs::path(saccade_program())), 1);
   for (const fs::path& file : binaries) expect_fixed(file);
 }
 

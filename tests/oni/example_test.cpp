@@ -7,6 +7,7 @@
 #include "oni/recording.hpp"
 #include "oni_fixtures.hpp"
 #include "tests/support/outcome.hpp"
+#include "tests/support/places.hpp"
 
 namespace saccade {
 namespace {
@@ -16,7 +17,7 @@ const cv::Mat1w kSecond = (cv::Mat1w(2, 4) << 800, 800, 800, 800, 806, 900, 900,
 
 // The bytes of the block ```hex of the specification, without its comments.
 std::vector<std::uint8_t> example_of_specification() {
-  std::ifstream file(std::filesystem::path(SACCADE_SOURCE_DIR) / "src/oni/README.md");
+  std::ifstream file(in_source("src/oni/README.md"));
   std::string line, digits;
   bool inside = false;
   while (std::getline(file, line)) {

@@ -11,6 +11,7 @@
 #include "oni/check.hpp"
 #include "oni/recording.hpp"
 #include "tests/support/outcome.hpp"
+#include "tests/support/places.hpp"
 
 namespace saccade {
 namespace {
@@ -58,7 +59,7 @@ const std::vector<Sample> kSamples = {
 
 class OniSamples : public ::testing::Test {
  protected:
-  static fs::path shared(const std::string& file) { return fs::path(SACCADE_SHARED_DIR) / file; }
+  static fs::path shared(const std::string& file) { return in_shared(file); }
   void SetUp() override {
     if (!fs::exists(shared("formats/samples/tiny.oni"))) GTEST_SKIP() << "no sample recordings";
   }

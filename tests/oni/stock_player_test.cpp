@@ -6,6 +6,7 @@
 #include "oni/repair.hpp"
 #include "oni_fixtures.hpp"
 #include "tests/support/outcome.hpp"
+#include "tests/support/places.hpp"
 
 namespace saccade {
 namespace {
@@ -109,7 +110,7 @@ TEST_F(StockPlayer, PlaysTheRepairedRecordingOfAKilledProcess) {
 }
 
 TEST_F(StockPlayer, AgreesOnRecordingsOfOtherPrograms) {
-  const fs::path shared(SACCADE_SHARED_DIR);
+  const fs::path shared = in_shared("");
   if (!fs::exists(shared / "formats/samples/tiny.oni")) GTEST_SKIP() << "no sample recordings";
   for (const auto& [name, count] : std::map<std::string, std::size_t>{{"formats/samples/ni1_a.oni", 4},
                                                                       {"formats/samples/sample.oni", 6},

@@ -8,6 +8,7 @@
 
 #include "core/file.hpp"
 #include "core/version.hpp"
+#include "tests/support/places.hpp"
 #include "tests/support/subprocess.hpp"
 
 namespace saccade {
@@ -193,7 +194,7 @@ TEST_F(DebianTest, ZshAcceptsItsCompletion) {
 
 #ifdef SACCADE_HAS_VIEWER
 TEST_F(DebianTest, TheDesktopAcceptsItsFiles) {
-  const std::string desktop = SACCADE_SOURCE_DIR "/src/app/desktop/saccade.desktop";
+  const std::string desktop = in_source("src/app/desktop/saccade.desktop");
   const std::string metainfo = BUILD_FOLDER "/package/io.github.saccade.metainfo.xml";
   SKIP_WITHOUT("desktop-file-validate");
   const ProgramResult valid = run_program("desktop-file-validate", {desktop});
@@ -206,9 +207,9 @@ TEST_F(DebianTest, TheDesktopAcceptsItsFiles) {
 
 // What a user reads of the installed program names no file of the source tree.
 TEST_F(DebianTest, NoTextSpeaksOfTheSourceTree) {
-  const ProgramResult strings = run_program(
-      "sh", {"-c", "grep -aoE '[ `]\\./run[ `a-z-]*|config/(default|paper)\\.toml' " SACCADE_PROGRAM
-                   " " BUILD_FOLDER "/manual/man/man1/*"});
+  const ProgramResult strings =
+      run_program("sh", {"-c", "grep -aoE '[ `]\\./run[ `a-z-]*|config/(default|paper)\\.toml' " +
+                                   saccade_program() + " " BUILD_FOLDER "/manual/man/man1/*"});
   EXPECT_EQ(strings.out, "");
 }
 

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/file.hpp"
+#include "tests/support/places.hpp"
 #include "tests/support/subprocess.hpp"
 
 namespace saccade {
@@ -22,7 +23,7 @@ class LibraryTest : public ProgramTest {
  protected:
   // The first block of src/README.md in this language.
   static std::string example(const std::string& language) {
-    const auto bytes = read_file(fs::path(SACCADE_SOURCE_DIR) / "src/README.md", 1u << 20);
+    const auto bytes = read_file(in_source("src/README.md"), 1u << 20);
     const std::string readme(bytes.begin(), bytes.end());
     const std::size_t begin = readme.find("```" + language + "\n");
     const std::size_t end = readme.find("```\n", begin + 3);
@@ -38,7 +39,7 @@ class LibraryTest : public ProgramTest {
   }
 
   void build_consumer() const {
-    fs::copy(fs::path(SACCADE_SOURCE_DIR) / "tests/package/consumer", in("consumer"));
+    fs::copy(in_source("tests/package/consumer"), in("consumer"));
     write_file(in("consumer/look.cpp"), example("cpp"));
     const ProgramResult configured =
         run_program(CMAKE_PROGRAM, {"-S", in("consumer"), "-B", in("build"), "-G", "Ninja",
@@ -53,7 +54,7 @@ TEST_F(LibraryTest, TheExampleGivesTheFixationsOfRun) {
   ASSERT_NO_FATAL_FAILURE(install());
   ASSERT_NO_FATAL_FAILURE(build_consumer());
   fs::create_directory(in("frames"));
-  const std::string recording = (fs::path(SACCADE_SOURCE_DIR) / "recordings/table.oni").string();
+  const std::string recording = in_source("recordings/table.oni");
   const ProgramResult wrote = run_program(in("build/write_depth"), {recording, in("frames/0000_depth.png")});
   ASSERT_EQ(wrote.status, 0) << wrote.err;
 
@@ -82,8 +83,7 @@ TEST_F(LibraryTest, TheExampleGivesTheFixationsOfRun) {
 
 TEST_F(LibraryTest, TheExampleProjectIsTheOneThatIsTested) {
   std::istringstream lines(example("cmake"));
-  const auto bytes =
-      read_file(fs::path(SACCADE_SOURCE_DIR) / "tests/package/consumer/CMakeLists.txt", 1u << 20);
+  const auto bytes = read_file(in_source("tests/package/consumer/CMakeLists.txt"), 1u << 20);
   const std::string tested(bytes.begin(), bytes.end());
   for (std::string line; std::getline(lines, line);) EXPECT_THAT(tested, HasSubstr(line + "\n"));
 }
@@ -96,7 +96,7 @@ TEST_F(LibraryTest, NoFileNamesTheFolderOfTheBuild) {
     if (ending != ".cmake" && ending != ".hpp") continue;
     ++files;
     const auto bytes = read_file(entry.path(), 1u << 20);
-    EXPECT_THAT(std::string(bytes.begin(), bytes.end()), Not(HasSubstr(SACCADE_SOURCE_DIR))) << entry.path();
+    EXPECT_THAT(std::string(bytes.begin(), bytes.end()), Not(HasSubstr(in_source("")))) << entry.path();
   }
   EXPECT_GT(files, 20U);
 }

@@ -8,6 +8,7 @@
 
 #include "comparison.hpp"
 #include "shapes.hpp"
+#include "tests/support/places.hpp"
 
 namespace saccade::test {
 namespace {
@@ -150,7 +151,7 @@ TEST(Agreement, PointsExactlyOnThePlanes) {
 class RealImage : public testing::TestWithParam<const char*> {};
 
 TEST_P(RealImage, AgreesWithTheReference) {
-  const std::filesystem::path path = std::filesystem::path(SACCADE_SHARED_DIR) / "data" / GetParam();
+  const std::filesystem::path path = in_shared(std::string("data/") + GetParam());
   if (!std::filesystem::exists(path)) GTEST_SKIP() << "no " << path;
   const cv::Mat image = cv::imread(path.string(), cv::IMREAD_UNCHANGED);
   ASSERT_EQ(image.type(), CV_16UC1);

@@ -11,6 +11,7 @@
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "tests/support/other_value.hpp"
+#include "tests/support/places.hpp"
 
 namespace saccade {
 namespace {
@@ -165,7 +166,7 @@ TEST(Settings, AHugeFileIsRefused) {
               HasSubstr("too large"));
 }
 
-std::string config_file(const char* name) { return std::string(SACCADE_SOURCE_DIR "/config/") + name; }
+std::string config_file(const char* name) { return in_source("config/") + name; }
 
 TEST(Settings, DefaultTomlListsEveryKeyWithItsDefault) {
   const auto bytes = read_file(config_file("default.toml"));

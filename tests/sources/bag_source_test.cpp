@@ -13,6 +13,7 @@
 #include "sources/open_source.hpp"
 #include "tests/support/folder_test.hpp"
 #include "tests/support/no_wait.hpp"
+#include "tests/support/places.hpp"
 #include "tests/support/subprocess.hpp"
 
 namespace saccade {
@@ -119,7 +120,7 @@ TEST_F(BagSourceTest, BagsOfTheReferenceWriterAreRead) {
   for (const char* compression : {"none", "bz2", "lz4"}) {
     SCOPED_TRACE(compression);
     const ProgramResult written =
-        run_program(kPython, {SACCADE_SOURCE_DIR "/tests/sources/write_bag.py", in("ros.bag"), compression});
+        run_program(kPython, {in_source("tests/sources/write_bag.py"), in("ros.bag"), compression});
     ASSERT_EQ(written.status, 0) << written.err;
     const auto source = open_source(in("ros.bag"));
     EXPECT_EQ(source->info().frame_count, 3);

@@ -13,6 +13,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "folder_source_fixture.hpp"
+#include "tests/support/places.hpp"
 
 namespace saccade {
 namespace {
@@ -301,7 +302,7 @@ TEST_F(FolderSourceTest, EmptyAndMissingFoldersAreErrors) {
 
 TEST(FolderSourceOnRealData, ReadsEveryFrame) {
   for (const char* name : {"osd_learn", "kitchen_sequence"}) {
-    const fs::path folder = fs::path(SACCADE_SHARED_DIR) / "data" / name;
+    const fs::path folder = in_shared(std::string("data/") + name);
     if (!fs::exists(folder)) GTEST_SKIP() << folder << " is not on this machine";
     const auto source = open_source(folder.string());
     EXPECT_THAT(source->info().notes, IsEmpty());

@@ -15,6 +15,7 @@
 #include "core/file.hpp"
 #include "sources/open_source.hpp"
 #include "tests/support/folder_test.hpp"
+#include "tests/support/places.hpp"
 
 namespace saccade {
 namespace {
@@ -182,7 +183,7 @@ std::string table() {
 
 // The table that stands there.
 std::string table_of_readme() {
-  std::ifstream file(fs::path(SACCADE_SOURCE_DIR) / "src/sources/README.md");
+  std::ifstream file(in_source("src/sources/README.md"));
   std::string text;
   for (std::string line; std::getline(file, line);) {
     if (line.starts_with("| SOURCE") || (!text.empty() && line.starts_with('|'))) text += line + "\n";

@@ -1,4 +1,5 @@
 #include "tests/support/subprocess.hpp"
+#include "tests/support/places.hpp"
 
 #include <fcntl.h>
 #include <signal.h>
@@ -36,7 +37,7 @@ bool has_ended(pid_t child) {
 
 ProgramResult run_saccade(const std::vector<std::string>& arguments, int interrupt_after_ms,
                           const fs::path& wait_for, int signal) {
-  return run_program(SACCADE_PROGRAM, arguments, interrupt_after_ms, wait_for, signal);
+  return run_program(saccade_program(), arguments, interrupt_after_ms, wait_for, signal);
 }
 
 ProgramResult run_program(const std::string& program, const std::vector<std::string>& arguments,

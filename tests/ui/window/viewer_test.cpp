@@ -12,6 +12,7 @@
 #include "core/png.hpp"
 #include "output/overlay.hpp"
 #include "sources/oni_source.hpp"
+#include "tests/support/places.hpp"
 #include "x_desktop.hpp"
 #include "x_program.hpp"
 
@@ -20,7 +21,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-const std::string kTable = std::string(SACCADE_SOURCE_DIR) + "/recordings/table.oni";
+const std::string kTable = in_source("recordings/table.oni");
 
 // A value of the result on screen; null while there is none.
 Json shown(const Json& j, const char* key) {
@@ -84,8 +85,7 @@ class ViewerTest : public XProgramTest {
     const std::filesystem::path file = recorded["file"].get<std::string>();
     EXPECT_EQ(file.parent_path(), std::filesystem::canonical(folder_));
     EXPECT_EQ(std::system(
-                  (std::string(SACCADE_PROGRAM) + " oni check '" + file.string() + "' >'" + in("check") + "'")
-                      .c_str()),
+                  (saccade_program() + " oni check '" + file.string() + "' >'" + in("check") + "'").c_str()),
               0);
     OniSource source(file);
     EXPECT_EQ(source.info().frame_count, recorded["frames"].get<std::int64_t>());

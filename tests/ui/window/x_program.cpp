@@ -1,4 +1,5 @@
 #include "x_program.hpp"
+#include "tests/support/places.hpp"
 
 #include <fcntl.h>
 #include <signal.h>
@@ -65,13 +66,13 @@ pid_t XProgramTest::spawn(const std::vector<std::string>& words, bool display) c
 }
 
 int XProgramTest::run(const std::vector<std::string>& arguments, bool display) {
-  std::vector<std::string> words = {SACCADE_PROGRAM, "view", "--ui-log", in("log")};
+  std::vector<std::string> words = {saccade_program(), "view", "--ui-log", in("log")};
   words.insert(words.end(), arguments.begin(), arguments.end());
   return exit_status(spawn(words, display));
 }
 
 void XProgramTest::start(const std::vector<std::string>& arguments) {
-  std::vector<std::string> words = {SACCADE_PROGRAM, "view", "--ui-log", in("log")};
+  std::vector<std::string> words = {saccade_program(), "view", "--ui-log", in("log")};
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::filesystem::remove(folder_ / "log");  // of the last start
   program_ = spawn(words, true);
