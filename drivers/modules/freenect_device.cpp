@@ -45,9 +45,9 @@ FieldOfView view_of(cv::Size size, double focal_px) {
 // The colour camera's own settings, where the library can set them. It cannot read them.
 class FreenectStream : public ModuleStream {
  public:
-  FreenectStream(const StreamKind& kind, std::function<FieldOfView()> view, std::function<bool(bool)> running,
-                 const std::function<bool(freenect_flag, bool)>& set_flag)
-      : ModuleStream(kind, std::move(view), std::move(running)) {
+  FreenectStream(const StreamKind& kind, const std::function<FieldOfView()>& view,
+                 std::function<bool(bool)> running, const std::function<bool(freenect_flag, bool)>& set_flag)
+      : ModuleStream(kind, view, std::move(running)) {
     if (kind.sensor != ONI_SENSOR_COLOR || freenect_set_flag == nullptr) return;
     add_flag(ONI_STREAM_PROPERTY_AUTO_EXPOSURE, FREENECT_AUTO_EXPOSURE, set_flag);
     add_flag(ONI_STREAM_PROPERTY_AUTO_WHITE_BALANCE, FREENECT_AUTO_WHITE_BALANCE, set_flag);

@@ -39,7 +39,7 @@ std::string lock_owner(const std::filesystem::path& folder) {
   const int descriptor = ::open((folder / kLockFile).c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
   if (descriptor < 0) return "";
   const bool taken = ::flock(descriptor, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
-  const std::string owner = taken ? read_owner(descriptor) : "";
+  std::string owner = taken ? read_owner(descriptor) : "";
   ::close(descriptor);
   return owner;
 }

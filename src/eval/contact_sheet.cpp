@@ -74,6 +74,7 @@ std::vector<Example> ExampleChooser::choose() const {
     for (std::size_t i = 0; i < conditions_.size(); ++i)
       if (conditions_[i].model == model && (highest == nullptr || rankings_[i].shares > highest->shares))
         highest = &rankings_[i];
+    if (highest == nullptr) continue;
     const std::size_t good = std::min(kExamples, (highest->images + 1) / 2);
     const std::size_t bad = std::min(kExamples, highest->images - good);
     for (std::size_t i = 0; i < good; ++i) chosen.push_back(highest->best[i]);

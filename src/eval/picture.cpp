@@ -24,9 +24,11 @@ std::vector<std::vector<cv::Point2d>> dashes(const Line& line) {
   for (std::size_t i = 1; i < line.points.size(); ++i) {
     cv::Point2d from = line.points[i - 1];
     const cv::Point2d to = line.points[i];
-    for (double length = cv::norm(to - from); length > 0; length = cv::norm(to - from)) {
+    double length = cv::norm(to - from);
+    while (length > 0) {
       const double step = std::min(left, length);
       from = step == length ? to : from + (to - from) * (step / length);
+      length = cv::norm(to - from);
       if (drawn) parts.back().push_back(from);
       left -= step;
       if (left > 0) continue;
@@ -85,6 +87,7 @@ class Painter {
  private:
   std::vector<cv::Point> fixed(const std::vector<cv::Point2d>& points) const {
     std::vector<cv::Point> out;
+    out.reserve(points.size());
     for (const cv::Point2d& p : points)
       out.emplace_back(cvRound(p.x * scale_ * (1 << kShift)), cvRound(p.y * scale_ * (1 << kShift)));
     return out;

@@ -6,6 +6,7 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "core/error.hpp"
 #include "core/version.hpp"
@@ -169,7 +170,7 @@ void define_error(py::module_& module) {
   error_type.attr("__doc__") = "Something that cannot be read or computed; the text says what to try.";
   py::register_exception_translator([](std::exception_ptr pointer) {
     try {
-      if (pointer) std::rethrow_exception(pointer);
+      if (pointer) std::rethrow_exception(std::move(pointer));
     } catch (const Error& error) {
       PyErr_SetString(error.status() == ExitStatus::usage ? PyExc_ValueError : error_type.ptr(),
                       error.what());

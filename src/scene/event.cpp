@@ -61,7 +61,7 @@ Vector3d free_way(const Scene& scene, int label, Random& random) {
   const int first = random.integer(0, kWays - 1);
   for (int i = 0; i < kWays; ++i) {
     const double angle = 2 * std::numbers::pi * (first + i) / kWays;
-    const Vector3d shift = kMove_mm * Vector3d(std::cos(angle), std::sin(angle), 0);
+    Vector3d shift = kMove_mm * Vector3d(std::cos(angle), std::sin(angle), 0);
     if (is_free(scene, label, shift)) return shift;
   }
   return {0, 0, kMove_mm};
