@@ -116,7 +116,51 @@ std::map<int, int> numbered(const std::set<int>& values) {
   return numbers;
 }
 
-// Sets identity_f1 and identity_f1_all.
+// WatchedFrame::covered_by. masks: rank of the point, 0 = none; empty = not known.
+std::vector<int> covering_points(const cv::Mat1w& labels, const std::vector<int>& in_view,
+                                 const cv::Mat1w& masks) {
+  if (masks.empty() || labels.empty()) return {};
+  std::map<int, std::map<int, int>> pixels;  // by label and rank
+  for (int r = 0; r < labels.rows; ++r)
+    for (int c = 0; c < labels.cols; ++c)
+      if (labels(r, c) != 0) ++pixels[labels(r, c)][masks(r, c)];
+  std::vector<int> covering;
+  for (const int label : in_view) {
+    int all = 0;
+    for (const auto& [rank, count] : pixels[label]) all += count;
+    const auto most = std::find_if(pixels[label].begin(), pixels[label].end(), [&](const auto& of_rank) {
+      return of_rank.first != 0 && 2 * of_rank.second > all;
+    });
+    covering.push_back(most == pixels[label].end() ? -1 : most->first - 1);
+  }
+  return covering;
+}
+
+// Adds a frame to the counts. id_of: the best id of each label.
+void count_identity(const WatchedFrame& frame, const std::map<int, int>& id_of, OverTime& result) {
+  for (std::size_t i = 0; i < frame.labels.size(); ++i) {
+    const int label = frame.labels[i];
+    const auto best = id_of.find(label);
+    IdentityCounts& counts = result.of_label[label];
+    int points = 0;
+    bool right = false;
+    for (const Point& point : frame.points) {
+      if (point.label != label) continue;
+      ++points;
+      right = right || (best != id_of.end() && point.id == best->second);
+    }
+    ++counts.in_view;
+    counts.more_points += std::max(0, points - 1);
+    const bool in_other = i < frame.covered_by.size() && frame.covered_by[i] >= 0;
+    ++(right ? counts.right : points > 0 ? counts.other_id : in_other ? counts.in_other : counts.without);
+  }
+  result.points_on_nothing +=
+      static_cast<int>(std::count_if(frame.points.begin(), frame.points.end(), [&](const Point& point) {
+        return !std::binary_search(frame.labels.begin(), frame.labels.end(), point.label);
+      }));
+}
+
+// Sets all that is known of identities but the switches.
 void measure_identity(const std::vector<WatchedFrame>& frames, OverTime& result) {
   std::set<int> labels, ids;
   double objects = 0, fixations = 0, on_objects = 0;
@@ -136,9 +180,14 @@ void measure_identity(const std::vector<WatchedFrame>& frames, OverTime& result)
         ++on_objects;
       }
   double right = 0;
+  std::map<int, int> id_of;
   const std::vector<int> column = best_assignment(hits);
-  for (int row = 0; row < hits.rows; ++row)
-    if (const int col = column[static_cast<std::size_t>(row)]; col >= 0) right += hits(row, col);
+  for (const auto& [label, row] : row_of)
+    if (const int col = column[static_cast<std::size_t>(row)]; col >= 0 && hits(row, col) > 0) {
+      right += hits(row, col);
+      id_of[label] = *std::next(ids.begin(), col);
+    }
+  for (const WatchedFrame& frame : frames) count_identity(frame, id_of, result);
   result.identity_f1 = 2 * right / (objects + on_objects);
   result.identity_f1_all = 2 * right / (objects + fixations);
 }
@@ -162,6 +211,16 @@ int id_switches(const std::vector<WatchedFrame>& frames) {
 
 }  // namespace
 
+IdentityCounts& IdentityCounts::operator+=(const IdentityCounts& other) {
+  in_view += other.in_view;
+  right += other.right;
+  other_id += other.other_id;
+  in_other += other.in_other;
+  without += other.without;
+  more_points += other.more_points;
+  return *this;
+}
+
 WatchedFrame watched_frame(const Frame& frame, const Attention& attention) {
   WatchedFrame watched;
   const cv::Mat1w& labels = frame.truth.labels;
@@ -171,6 +230,7 @@ WatchedFrame watched_frame(const Frame& frame, const Attention& attention) {
   if (!labels.empty())
     for (const auto& [label, pixels] : object_areas(labels))
       if (pixels >= kFewestPixels) watched.labels.push_back(label);
+  watched.covered_by = covering_points(labels, watched.labels, attention.masks);
   watched.camera_to_world = frame.truth.camera_to_world;
   watched.camera = frame.intrinsics;
   watched.size = frame.size();

@@ -21,8 +21,11 @@ struct WatchedFrame {
     int label = 0;            ///< of the object that it hits; 0 = none
     cv::Point3d position_mm;  ///< camera frame; z = 0: no reading there
   };
-  std::vector<Point> points;                      ///< in the order of attention
-  std::vector<int> labels;                        ///< of the objects in view, ascending
+  std::vector<Point> points;  ///< in the order of attention
+  std::vector<int> labels;    ///< of the objects in view, ascending
+  /// Of each of these objects: the index of the point whose mask covers more than half of its pixels; -1 =
+  /// none. Empty = not known.
+  std::vector<int> covered_by;
   std::optional<cv::Affine3d> camera_to_world{};  ///< the true pose, mm
   Intrinsics camera{};
   cv::Size size{};
@@ -33,6 +36,17 @@ constexpr int kFewestPixels = 150;
 
 /// Takes what is measured from a frame and the attention in it.
 [[nodiscard]] WatchedFrame watched_frame(const Frame& frame, const Attention& attention);
+
+/// What became of an object, or of all, in the frames in which it is in view; counts.
+struct IdentityCounts {
+  int in_view = 0;      ///< frames (of all objects: pairs of object and frame)
+  int right = 0;        ///< with a point under the id that is best assigned to the object
+  int other_id = 0;     ///< with points, but none under that id
+  int in_other = 0;     ///< without a point; most of it in the mask of a point on something else
+  int without = 0;      ///< without a point, and not in such a mask
+  int more_points = 0;  ///< points on it beside the one that is counted above
+  IdentityCounts& operator+=(const IdentityCounts& other);
+};
 
 /// How attention holds over a sequence.
 struct OverTime {
@@ -57,6 +71,9 @@ struct OverTime {
   /// identity_f1 counts the fixations on labelled objects; identity_f1_all counts all, so those on other
   /// things as errors. None without labels.
   std::optional<double> identity_f1, identity_f1_all;
+  /// Where identity_f1 is lost, by label, and the points on no object.
+  std::map<int, IdentityCounts> of_label;
+  int points_on_nothing = 0;
   /// How often an object was hit under other ids than the last time.
   int id_switches = 0;
 };

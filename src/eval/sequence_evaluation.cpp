@@ -115,6 +115,38 @@ nlohmann::ordered_json json_of(std::optional<double> value) {
   return value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json(nullptr);
 }
 
+nlohmann::ordered_json json_of(const IdentityCounts& counts) {
+  return {{"in_view", counts.in_view},       {"right_id", counts.right},
+          {"other_id", counts.other_id},     {"in_other", counts.in_other},
+          {"without_point", counts.without}, {"more_points", counts.more_points}};
+}
+
+IdentityCounts all_objects(const OverTime& over_time) {
+  IdentityCounts all;
+  for (const auto& [label, counts] : over_time.of_label) all += counts;
+  return all;
+}
+
+nlohmann::ordered_json identity_json(const OverTime& over_time) {
+  nlohmann::ordered_json json = json_of(all_objects(over_time));
+  json["points_on_nothing"] = over_time.points_on_nothing;
+  for (const auto& [label, counts] : over_time.of_label)
+    json["objects"][std::to_string(label)] = json_of(counts);
+  return json;
+}
+
+// The counts of all objects in the order of IdentityCounts, as rows of the text.
+struct IdentityRow {
+  std::string name;
+  int IdentityCounts::*count;
+};
+const std::vector<IdentityRow> kIdentityRows = {{"objects in view", &IdentityCounts::in_view},
+                                                {"  under the right id", &IdentityCounts::right},
+                                                {"  under another id", &IdentityCounts::other_id},
+                                                {"  in another's mask", &IdentityCounts::in_other},
+                                                {"  without a point", &IdentityCounts::without},
+                                                {"more points on objects", &IdentityCounts::more_points}};
+
 }  // namespace
 
 SequenceResult watch_sequence(FrameSource& source, const Settings& settings, WorkerPool& pool,
@@ -155,6 +187,7 @@ nlohmann::ordered_json over_time_json(const std::vector<SequenceResult>& results
     json["identity_f1"] = json_of(result.over_time.identity_f1);
     json["identity_f1_all"] = json_of(result.over_time.identity_f1_all);
     json["id_switches"] = result.over_time.id_switches;
+    if (!result.over_time.of_label.empty()) json["identity"] = identity_json(result.over_time);
     json["hit_ratio"] = {{"over_time", result.hit_ratio}, {"frame_by_frame", result.hit_ratio_alone}};
     models.push_back(std::move(json));
   }
@@ -173,6 +206,14 @@ std::string over_time_text(const std::vector<SequenceResult>& results) {
   row("ids per place", [](const SequenceResult& result) { return shown(result.over_time.ids_per_place); });
   row("id switches",
       [](const SequenceResult& result) { return std::to_string(result.over_time.id_switches); });
+  for (const IdentityRow& identity : kIdentityRows)
+    row(identity.name, [&](const SequenceResult& result) {
+      return result.over_time.of_label.empty()
+                 ? "-"
+                 : std::to_string(all_objects(result.over_time).*identity.count);
+    });
+  row("points on no object",
+      [](const SequenceResult& result) { return std::to_string(result.over_time.points_on_nothing); });
   row("cuts", [](const SequenceResult& result) { return std::to_string(result.cuts); });
   return text + "\n";
 }

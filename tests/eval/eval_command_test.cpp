@@ -270,7 +270,8 @@ TEST_F(EvalTest, OverTimeWritesTableAndFigure) {
   };
   const ProgramResult outcome = run("one", "1");
   ASSERT_EQ(outcome.status, 0) << outcome.err;
-  for (const char* name : {"held-30, n = 5", "first stays", "IDF1", "ids per place", "cuts"})
+  for (const char* name :
+       {"held-30, n = 5", "first stays", "IDF1", "ids per place", "under the right id", "cuts"})
     EXPECT_THAT(outcome.out, HasSubstr(name));
   const json report = json::parse(text("one/over_time.json"));
   ASSERT_EQ(report["models"].size(), 2U);
@@ -280,6 +281,11 @@ TEST_F(EvalTest, OverTimeWritesTableAndFigure) {
   EXPECT_EQ(model["cuts"], 0);
   EXPECT_GT(model["held_1"]["5"].get<double>(), 0.8);
   EXPECT_EQ(model["hit_ratio"]["over_time"].size(), 10U);
+  const json& identity = model["identity"];
+  EXPECT_EQ(identity["in_view"], identity["right_id"].get<int>() + identity["other_id"].get<int>() +
+                                     identity["in_other"].get<int>() + identity["without_point"].get<int>());
+  EXPECT_GT(identity["right_id"], 0);
+  EXPECT_FALSE(identity["objects"].empty());
   EXPECT_FALSE(cv::imread(in("one/over_time.png")).empty());
   EXPECT_THAT(text("one/over_time.svg"), HasSubstr("held-30"));
   ASSERT_EQ(run("two", "2").status, 0);

@@ -80,6 +80,50 @@ TEST(OverTime, IdentityF1AndSwitches) {
   EXPECT_EQ(measure_over_time(frames).identity_f1, 0);
 }
 
+// Labels 7, 8 and 9: 7 has points under two ids, one of them in most frames; 8 lies in the mask of a point on
+// 7; 9 has no point.
+TEST(OverTime, WhereIdentityIsLost) {
+  WatchedFrame frame = frame_with({at(1, 0, 7), at(2, 100, 7), at(3, 900, 0)}, {7, 8, 9});
+  frame.covered_by = {0, 1, -1};
+  std::vector<WatchedFrame> frames(10, frame);
+  for (std::size_t k = 0; k < 3; ++k) {
+    frames[k].points = {at(4, 0, 7), at(3, 900, 0)};
+    frames[k].covered_by = {0, 0, -1};
+  }
+  const OverTime result = measure_over_time(frames);
+  ASSERT_EQ(result.of_label.size(), 3U);
+  const IdentityCounts &a = result.of_label.at(7), &b = result.of_label.at(8), &c = result.of_label.at(9);
+  EXPECT_EQ(a.in_view, 10);
+  EXPECT_EQ(a.right, 7);
+  EXPECT_EQ(a.other_id, 3);
+  EXPECT_EQ(a.more_points, 7);
+  EXPECT_EQ(b.in_other, 10);
+  EXPECT_EQ(c.without, 10);
+  EXPECT_EQ(result.points_on_nothing, 10);
+  IdentityCounts all;
+  for (const auto& [label, counts] : result.of_label) all += counts;
+  EXPECT_EQ(all.in_view, all.right + all.other_id + all.in_other + all.without);
+  EXPECT_DOUBLE_EQ(*result.identity_f1,
+                   2.0 * all.right / (all.in_view + all.right + all.other_id + all.more_points));
+}
+
+// Two objects side by side, of which a mask covers one whole and a third of the other.
+TEST(WatchedFrame, KnowsWhichMaskCoversAnObject) {
+  Frame frame;
+  frame.truth.labels = cv::Mat1w(40, 60, static_cast<ushort>(0));
+  frame.truth.labels(cv::Rect(0, 0, 30, 40)) = 5;
+  frame.truth.labels(cv::Rect(30, 0, 30, 40)) = 6;
+  frame.depth_mm = cv::Mat1f(40, 60, 1000.0F);
+  Attention attention;
+  attention.fixations.resize(2);
+  attention.fixations[1].col = 59;
+  attention.masks = cv::Mat1w(40, 60, static_cast<ushort>(0));
+  attention.masks(cv::Rect(0, 0, 40, 40)) = 2;
+  const WatchedFrame watched = watched_frame(frame, attention);
+  EXPECT_EQ(watched.labels, (std::vector<int>{5, 6}));
+  EXPECT_EQ(watched.covered_by, (std::vector<int>{1, -1}));
+}
+
 // All permutations of the columns.
 double slow_best(const cv::Mat1d& gain) {
   std::vector<int> columns(static_cast<std::size_t>(std::max(gain.rows, gain.cols)));
