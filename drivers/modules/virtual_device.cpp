@@ -49,6 +49,11 @@ std::vector<StreamKind> kinds_of(FrameSource& source) {
   return kinds;
 }
 
+std::unique_ptr<FrameSource> from_frame(std::unique_ptr<FrameSource> source, std::int64_t first) {
+  source->seek(first);
+  return source;
+}
+
 FieldOfView field_of_view(const SourceInfo& info) {
   const Intrinsics& camera = info.intrinsics;
   return {2 * std::atan(info.size.width / 2.0 / camera.fx),
@@ -115,12 +120,13 @@ std::unique_ptr<FrameSource> open_playable(const VirtualSpec& spec) {
   return source;
 }
 
-VirtualDevice::VirtualDevice(const VirtualSpec& spec, std::unique_ptr<FrameSource> source, Plug plug)
+VirtualDevice::VirtualDevice(const VirtualSpec& spec, std::unique_ptr<FrameSource> source,
+                             std::int64_t first_frame, Plug plug)
     : ModuleDevice({"VIRTUAL-1", "none"}, kinds_of(*source)),
       spec_(spec),
       view_(field_of_view(source->info())),
       plug_(std::move(plug)),
-      source_(std::move(source)),
+      source_(from_frame(std::move(source), first_frame)),
       player_([this](const std::stop_token& stop) { play(stop); }) {
   if (spec_.ignores_settings)
     properties_.add<OniImageRegistrationMode>(

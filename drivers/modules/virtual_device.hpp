@@ -21,9 +21,9 @@ std::unique_ptr<FrameSource> open_playable(const VirtualSpec& spec);
 
 /// A recorded or synthetic source as an OpenNI2 device. While a stream is started, a thread reads a frame at
 /// a time at the rate of the mode (the faster of two) and hands depth and colour on with one time stamp, the
-/// time since the device was opened at which the frame was due, and one index: frame k + 1 shows frame k of
-/// the source, which begins again at its end. A frame that the source rejects is left out. A stream of
-/// half the rate gets every other frame.
+/// time since the device was opened at which the frame was due, and one index: the first shows the source's
+/// frame first_frame, and the source begins again at its end. A frame that the source rejects is left out. A
+/// stream of half the rate gets every other frame.
 ///
 /// Depth is rounded to mm; depth beyond the range of 16 bits is no reading. A mode of half the
 /// size shows the pixels of even rows and columns. Depth and colour of our sources are registered, whatever
@@ -37,7 +37,9 @@ class VirtualDevice final : public ModuleDevice {
     std::function<void(const std::string& why)> fail;  ///< the source cannot be read any more
   };
 
-  VirtualDevice(const VirtualSpec& spec, std::unique_ptr<FrameSource> source, Plug plug);
+  /// first_frame: of the source, 0..; one past its end is its first.
+  VirtualDevice(const VirtualSpec& spec, std::unique_ptr<FrameSource> source, std::int64_t first_frame,
+                Plug plug);
   ~VirtualDevice() override;
 
   oni::driver::StreamBase* createStream(OniSensorType sensor) override;

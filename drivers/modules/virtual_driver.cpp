@@ -67,7 +67,7 @@ class VirtualDriver final : public oni::driver::DriverBase {
       return nullptr;
     }
     try {
-      return new VirtualDevice(*spec_, open_playable(*spec_),
+      return new VirtualDevice(*spec_, open_playable(*spec_), first_frame(),
                                {[this] { return present(); }, [this] { count(); },
                                 [this](const std::string& why) {
                                   report(why);
@@ -94,6 +94,11 @@ class VirtualDriver final : public oni::driver::DriverBase {
   bool present() const {
     const std::lock_guard lock(mutex_);
     return present_;
+  }
+
+  std::int64_t first_frame() const {
+    const std::lock_guard lock(mutex_);
+    return was_lost_ ? spec_->back_at : 0;
   }
 
   // On the announcer's thread, or before there are devices.
@@ -126,6 +131,7 @@ class VirtualDriver final : public oni::driver::DriverBase {
     {
       const std::lock_guard lock(mutex_);
       present_ = false;
+      was_lost_ = true;
     }
     if (loss == VirtualSpec::Loss::event) announcer_->now([this] { deviceDisconnected(&info_); });
     if (loss == VirtualSpec::Loss::state)
@@ -136,6 +142,7 @@ class VirtualDriver final : public oni::driver::DriverBase {
   std::optional<VirtualSpec> spec_;
   mutable std::mutex mutex_;
   bool present_ = false;     // guarded by mutex_
+  bool was_lost_ = false;    // guarded by mutex_
   std::int64_t frames_ = 0;  // guarded by mutex_; given since it appeared
   std::optional<Announcer> announcer_;
 };

@@ -56,11 +56,15 @@ struct Key {
 constexpr string_view kCount = "a number of frames, 1..1000000000";
 constexpr string_view kDuration = "integer ms, 0..86400000";
 
-constexpr std::array<Key, 9> kKeys = {{
+constexpr std::array<Key, 10> kKeys = {{
     {"loss_after", kCount, [](string_view v, VirtualSpec& s) { return store(count(v), s.loss_after); }},
     {"loss", "event, state or silent", read_loss},
     {"back_after_ms", kDuration,
      [](string_view v, VirtualSpec& s) { return store(duration(v), s.back_after); }},
+    {"back_at", "the number of a frame, 0..1000000000",
+     [](string_view v, VirtualSpec& s) {
+       return store(number<std::int64_t>(v, 0, 1'000'000'000), s.back_at);
+     }},
     {"late_ms", kDuration, [](string_view v, VirtualSpec& s) { return store(duration(v), s.late); }},
     {"stall_ms", kDuration, [](string_view v, VirtualSpec& s) { return store(duration(v), s.stall); }},
     {"stall_after", kCount, [](string_view v, VirtualSpec& s) { return store(count(v), s.stall_after); }},

@@ -20,6 +20,8 @@ struct VirtualSpec {
   std::optional<std::int64_t> loss_after;  ///< loss_after=1..: frames from its appearance to its loss
   Loss loss = Loss::event;                 ///< loss=event | state | silent
   std::optional<std::chrono::milliseconds> back_after;  ///< back_after_ms=0..: after a loss; else never
+  std::int64_t back_at =
+      0;  ///< back_at=0..: frame of the source, for a device that is opened again after a loss
   std::chrono::milliseconds late{0};   ///< late_ms=0..: from the start of OpenNI2 to its appearance
   std::chrono::milliseconds stall{0};  ///< stall_ms=0..: for this time nothing arrives,
   std::int64_t stall_after = 30;       ///< stall_after=1..: after each N frames

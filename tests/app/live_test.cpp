@@ -6,11 +6,15 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>
+#include <filesystem>
+#include <iterator>
+#include <set>
 #include <sstream>
 #include <string>
 #include <thread>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
@@ -120,6 +124,48 @@ TEST_F(LiveTest, AttentionOverTimeRemembersTheSceneWhileTheDeviceIsLost) {
     const json &old = frames[before]["fixations"][rank], &now = frames[before + 1]["fixations"][rank];
     EXPECT_EQ(now["id"], old["id"]) << rank;
     EXPECT_GT(now["age_frames"], old["age_frames"]) << rank;
+  }
+}
+
+// A folder with six frames of one table and six of another. The device is lost for more than a second after
+// the first six, and comes back with the same table or with the other one.
+TEST_F(LiveTest, AfterALossOnlyAnotherSceneIsACut) {
+  namespace fs = std::filesystem;
+  const auto write_table = [&](int seed, int start, const std::string& folder) {
+    const std::string table =
+        fmt::format("synthetic:table?size=320x240&noise=kinect&seed={}&frames={}", seed, start + 6);
+    ASSERT_EQ(run_saccade({"export", table, "--start", std::to_string(start), "--out", in(folder)}).status,
+              0);
+  };
+  write_table(3, 0, "tables");
+  write_table(4, 6, "other");
+  for (const auto& file : fs::directory_iterator(in("other")))
+    if (file.path().extension() == ".png") fs::copy(file.path(), in("tables"));
+  for (const char* name : {"times.txt", "poses.txt"}) fs::remove(in("tables") + "/" + name);
+  for (const int back_at : {0, 6}) {
+    const std::string device =
+        fmt::format("{}?loss_after=6&back_after_ms=1300&back_at={}", in("tables"), back_at);
+    ::setenv("SACCADE_VIRTUAL_DEVICE", device.c_str(), 1);
+    const std::string out = fmt::format("out{}", back_at);
+    const ProgramResult outcome = run_saccade({"run", "openni2", "--frames", "8", "--min-confidence", "0",
+                                               "--out", in(out), "--dump", "none", "--tracking", "on"});
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_THAT(outcome.err, HasSubstr("reconnected"));
+    EXPECT_EQ(json::parse(text(out + "/manifest.json"))["tracking"]["cuts"], back_at == 0 ? 0 : 1);
+    std::istringstream lines(text(out + "/fixations.jsonl"));
+    std::set<int> before, after;  // ids in the first and in the last frame
+    for (std::string line; std::getline(lines, line);) {
+      after.clear();
+      for (const json& fixation : json::parse(line)["fixations"]) after.insert(fixation["id"].get<int>());
+      if (before.empty()) before = after;
+    }
+    std::set<int> kept;
+    std::set_intersection(before.begin(), before.end(), after.begin(), after.end(),
+                          std::inserter(kept, kept.end()));
+    if (back_at == 0)
+      EXPECT_GE(2 * kept.size(), before.size()) << "ids survive the loss";
+    else
+      EXPECT_TRUE(kept.empty()) << "another scene has new ids";
   }
 }
 

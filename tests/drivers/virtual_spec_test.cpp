@@ -45,7 +45,7 @@ TEST(VirtualSpec, FaultsFollowTheSource) {
   for (const char separator : {'?', '&'}) {
     const VirtualSpec spec = parse_virtual(std::string("a b.oni") + separator +
                                            "loss_after=50&loss=silent&back_after_ms=800&late_ms=10&stall_ms="
-                                           "20&stall_after=7&short_frame=3&rate=12.5&"
+                                           "20&stall_after=7&short_frame=3&rate=12.5&back_at=9&"
                                            "ignores_settings=1");
     EXPECT_EQ(spec.source, "a b.oni");
     EXPECT_EQ(spec.loss_after, 50);
@@ -56,6 +56,7 @@ TEST(VirtualSpec, FaultsFollowTheSource) {
     EXPECT_EQ(spec.stall_after, 7);
     EXPECT_EQ(spec.short_frame, 3);
     EXPECT_EQ(spec.rate_hz, 12.5);
+    EXPECT_EQ(spec.back_at, 9);
     EXPECT_TRUE(spec.ignores_settings);
   }
 }
@@ -74,8 +75,9 @@ TEST(VirtualSpec, NamesMistakes) {
   EXPECT_THAT(complaint("a.oni?lossafter=3"), HasSubstr("loss_after"));
   EXPECT_THAT(complaint("a.oni?"), HasSubstr("unknown key ''"));
   EXPECT_THAT(complaint("a.oni?loss_after=3&loss_after=4"), HasSubstr("given twice"));
-  for (const char* pair : {"loss_after=0", "loss_after=3x", "loss_after", "loss=lost", "back_after_ms=-1",
-                           "rate=0", "rate=nan", "short_frame=0", "ignores_settings=2", "late_ms=1.5"})
+  for (const char* pair :
+       {"loss_after=0", "loss_after=3x", "loss_after", "loss=lost", "back_after_ms=-1", "back_at=-1",
+        "rate=0", "rate=nan", "short_frame=0", "ignores_settings=2", "late_ms=1.5"})
     EXPECT_THAT(complaint(std::string("a.oni&") + pair), HasSubstr("bad value")) << pair;
   EXPECT_THAT(complaint("?loss=event"), HasSubstr("no source"));
   EXPECT_THAT(complaint(""), HasSubstr("no source"));
