@@ -30,6 +30,14 @@ bool is_device(const std::filesystem::path& path) {
   return std::filesystem::is_character_file(path, code);
 }
 
+// Settings of "--config /dev/null" are none.
+bool is_null_device(const std::filesystem::path& path) {
+  struct stat null {};
+  struct stat named {};
+  return ::stat("/dev/null", &null) == 0 && ::stat(path.c_str(), &named) == 0 && S_ISCHR(named.st_mode) &&
+         named.st_rdev == null.st_rdev;
+}
+
 // Opens without waiting for the reader of a pipe, and follows a symbolic link only to a device. Negative,
 // with errno, if that fails.
 int open_to_write(const std::string& path, int flags) {
@@ -55,6 +63,7 @@ int write_all(int descriptor, const char* data, std::size_t size) {
 
 std::vector<std::uint8_t> read_file(const std::filesystem::path& path, std::uintmax_t limit) {
   std::error_code code;
+  if (is_null_device(path)) return {};
   const std::uintmax_t size = std::filesystem::file_size(path, code);
   if (code)
     throw unreadable("cannot read: " + code.message(), path.string(), "check the path and its permissions");

@@ -86,6 +86,7 @@ TEST_F(RunErrorsTest, Configuration) {
   write_file(folder_ / "c.toml", std::string_view("kernel = \n"));
   expect(kUsage, "not valid TOML", {"--config", in("c.toml")});
   expect(kUnreadable, "none.toml", {"--config", in("none.toml")});
+  expect(kUnreadable, "/dev/zero", {"--config", "/dev/zero"});
 }
 
 TEST_F(RunErrorsTest, Sources) {

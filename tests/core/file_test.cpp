@@ -149,6 +149,13 @@ TEST_F(FileTest, MissingAndTooLargeFilesAreUnreadable) {
   EXPECT_THROW((void)read_file(folder_ / "a", 4), Error);
 }
 
+TEST_F(FileTest, TheNullDeviceIsEmptyAndOtherDevicesAreRefused) {
+  EXPECT_TRUE(read_file("/dev/null").empty());
+  fs::create_symlink("/dev/null", folder_ / "link");
+  EXPECT_TRUE(read_file(folder_ / "link").empty());
+  EXPECT_THROW((void)read_file("/dev/zero"), Error);
+}
+
 TEST(Megabytes, GigabytesFromOneOn) {
   EXPECT_EQ(megabytes(12'340'000), "12.3 MB");
   EXPECT_EQ(megabytes(4.56e9), "4.56 GB");

@@ -191,6 +191,13 @@ TEST(Settings, PaperTomlHasTheSettingsOfThePaper) {
   EXPECT_EQ(s.selector, Selector::wta);
 }
 
+TEST(Settings, TheNullDeviceChangesNothing) {
+  Settings s;
+  s.kernel = 9;
+  load_settings(s, "/dev/null");
+  EXPECT_EQ(s.kernel, 9);
+}
+
 TEST(Settings, MissingFileIsUnreadable) {
   Settings s;
   EXPECT_THAT(error_of([&] { load_settings(s, "/nowhere/x.toml"); }, ExitStatus::unreadable),
