@@ -90,7 +90,8 @@ void view(const ViewArguments& arguments, const SettingsOptions& options) {
   ViewerOptions viewer_options;
   viewer_options.source = {
       arguments.source, {settings.start, settings.every, settings.frames}, settings.sensor};
-  viewer_options.example = find_bundled_recording(fs::read_symlink("/proc/self/exe")).string();
+  std::error_code code;
+  viewer_options.example = find_bundled_recording(fs::read_symlink("/proc/self/exe", code)).string();
   viewer_options.welcome = arguments.source.empty() && arguments.screenshot.empty();
   if (arguments.source.empty()) viewer_options.source.uri = viewer_options.example;
   if (viewer_options.source.uri.empty() && !arguments.screenshot.empty())
@@ -116,9 +117,10 @@ void view(const ViewArguments& arguments, const SettingsOptions& options) {
 
 fs::path find_bundled_recording(const fs::path& program) {
   fs::path installed = (program.parent_path() / SACCADE_DATA_FROM_BIN / "table.oni").lexically_normal();
-  if (fs::exists(installed)) return installed;
+  std::error_code code;  // a folder above may not be readable
+  if (fs::exists(installed, code)) return installed;
   for (fs::path folder = program.parent_path(); folder.has_relative_path(); folder = folder.parent_path())
-    if (fs::path file = folder / "recordings/table.oni"; fs::exists(file)) return file;
+    if (fs::path file = folder / "recordings/table.oni"; fs::exists(file, code)) return file;
   return {};
 }
 

@@ -4,11 +4,13 @@
 #include <array>
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "ui/panels/panel_text.hpp"
+#include "ui/session/cloud_pick.hpp"
 
 namespace saccade {
 namespace {
@@ -39,7 +41,8 @@ void draw_choices(CloudStyle& style, CloudPanelState& state) {
   explain("Colour of the points: the saliency map over the image, the image alone, or depth.");
   checkbox("Lit", style.lit, "Shades the points: surfaces that turn away from the eye are darker.");
   checkbox("Normals", style.needles, "Lines along the surface normals.");
-  checkbox("Fixations", style.fixations, "Numbered markers with their positions in mm.");
+  checkbox("Fixations", style.fixations,
+           "Numbered marks with their positions in mm; those behind a surface are faint.");
   continue_line("", 7.5F);
   ImGui::SetNextItemWidth(7 * em);
   ImGui::SliderFloat("##size", &style.point_size, kSmallestPoint, kLargestPoint, "Points ×%.1f",
@@ -111,7 +114,7 @@ void draw_marker(ImDrawList& list, const Marker& marker, std::vector<Box>& taken
   list.AddCircle(at, radius, colour, 0, em / 10);
   const std::string number = fmt::format("{}", marker.id != 0 ? marker.id : static_cast<int>(marker.rank));
   const ImVec2 digits = ImGui::CalcTextSize(number.c_str());
-  list.AddText({at.x - digits.x / 2, at.y - digits.y / 2}, colour, number.c_str());
+  list.AddText({at.x - digits.x / 2, at.y - digits.y / 2}, IM_COL32(255, 255, 255, opacity), number.c_str());
   if (marker.hidden) return;
 
   const std::string text = fmt::format("{:.0f} {:.0f} {:.0f} mm", marker.position_mm.x, marker.position_mm.y,
@@ -156,8 +159,9 @@ void find_hidden(const OrbitCamera& camera, const Frame& frame, ImVec2 corner, c
     }
 }
 
-void draw_fixations(const CloudPanelState& state, const Frame& frame, const std::vector<Fixation>& fixations,
-                    ImVec2 corner, cv::Size viewport) {
+// Returns the index of the one under the pointer; -1 = none.
+int draw_fixations(const CloudPanelState& state, const Frame& frame, const std::vector<Fixation>& fixations,
+                   ImVec2 corner, cv::Size viewport) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
   std::vector<Marker> markers;
   std::vector<Box> taken;  // begins with the discs: no text over them
@@ -172,11 +176,39 @@ void draw_fixations(const CloudPanelState& state, const Frame& frame, const std:
     taken.push_back({{screen.x - radius, screen.y - radius}, {screen.x + radius, screen.y + radius}});
   }
   find_hidden(state.camera, frame, corner, viewport, markers);
+  int hovered = -1;
+  const ImVec2 mouse = ImGui::GetIO().MousePos;
   for (const Marker& marker : markers) {
     draw_marker(list, marker, taken);
+    if (std::hypot(mouse.x - marker.at.x, mouse.y - marker.at.y) <= radius)
+      hovered = static_cast<int>(marker.rank) - 1;
     if (static_cast<int>(marker.rank) - 1 == state.highlighted)
       list.AddCircle(marker.at, 1.25F * radius, ImGui::GetColorU32(ImGuiCol_CheckMark), 0, radius / 4);
   }
+  return hovered;
+}
+
+// A cross at the point of the pinned pixel.
+void draw_pin(const CloudPanelState& state, ImVec2 corner, cv::Size viewport) {
+  const auto at = state.pinned ? state.camera.project(*state.pinned, viewport) : std::nullopt;
+  if (!at) return;
+  const float x = corner.x + static_cast<float>(at->x), y = corner.y + static_cast<float>(at->y);
+  const float near = 0.25F * ImGui::GetFontSize(), far = 0.75F * ImGui::GetFontSize();
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  for (const auto& [colour, width] :
+       {std::pair(IM_COL32(0, 0, 0, 200), 3.5F), {ImGui::GetColorU32(ImGuiCol_CheckMark), 1.5F}})
+    for (const float way : {-1.0F, 1.0F}) {
+      list.AddLine({x + way * near, y}, {x + way * far, y}, colour, width);
+      list.AddLine({x, y + way * near}, {x, y + way * far}, colour, width);
+    }
+}
+
+// Whether the last item was clicked and not dragged.
+bool was_clicked() {
+  const ImGuiIO& io = ImGui::GetIO();
+  const ImVec2 from = io.MouseClickedPos[ImGuiMouseButton_Left];
+  return ImGui::IsItemHovered() && ImGui::IsMouseReleased(ImGuiMouseButton_Left) &&
+         std::hypot(io.MousePos.x - from.x, io.MousePos.y - from.y) < ImGui::GetFontSize() / 4;
 }
 
 void draw_measured(const CloudPanelState& state, ImVec2 corner, cv::Size viewport) {
@@ -235,6 +267,9 @@ OrbitCamera camera_for_frame(const Frame& frame) {
 void draw_cloud(CloudStyle& style, CloudPanelState& state, const Frame& frame, const Attention& attention,
                 const std::function<ImTextureID(cv::Size)>& render) {
   draw_choices(style, state);
+  state.hovered_mark = -1;
+  state.clicked = false;
+  state.clicked_pixel.reset();
   constexpr ImGuiWindowFlags kFlags = ImGuiWindowFlags_NoScrollWithMouse | ImGuiWindowFlags_NoScrollbar;
   if (ImGui::BeginChild("points", {0, 0}, false, kFlags)) {
     if (!state.placed) state.camera = camera_for_frame(frame);
@@ -246,6 +281,8 @@ void draw_cloud(CloudStyle& style, CloudPanelState& state, const Frame& frame, c
                            ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight |
                                ImGuiButtonFlags_MouseButtonMiddle);
     turn_by_pointer(state, corner, viewport);
+    const bool hovered = ImGui::IsItemHovered();
+    state.clicked = was_clicked();
     const ImVec2& scale = ImGui::GetIO().DisplayFramebufferScale;
     const ImTextureID texture = render({static_cast<int>(size.x * std::max(scale.x, 1.0F)),
                                         static_cast<int>(size.y * std::max(scale.y, 1.0F))});
@@ -253,8 +290,18 @@ void draw_cloud(CloudStyle& style, CloudPanelState& state, const Frame& frame, c
       ImGui::GetWindowDrawList()->AddImage(texture, corner, {corner.x + size.x, corner.y + size.y}, {0, 1},
                                            {1, 0});
     draw_axes_and_scale(state.camera, corner, viewport);
-    if (style.fixations) draw_fixations(state, frame, attention.fixations, corner, viewport);
+    const int mark =
+        style.fixations ? draw_fixations(state, frame, attention.fixations, corner, viewport) : -1;
+    if (hovered) state.hovered_mark = mark;
+    draw_pin(state, corner, viewport);
     draw_measured(state, corner, viewport);
+    if (state.clicked && state.hovered_mark < 0) {
+      const ImVec2 mouse = ImGui::GetIO().MousePos;
+      state.clicked_pixel =
+          pixel_at(state.camera, frame,
+                   {static_cast<double>(mouse.x - corner.x), static_cast<double>(mouse.y - corner.y)},
+                   viewport, static_cast<double>(ImGui::GetFontSize()) / 3);
+    }
   }
   ImGui::EndChild();
 }

@@ -29,9 +29,11 @@ bool percent_slider(const char* id, double& percent, float largest) {
   return true;
 }
 
-void share_slider(const char* id, double& share) {
+bool share_slider(const char* id, double& share) {
   double percent = 100 * share;
-  if (percent_slider(id, percent, 100)) share = percent / 100;
+  if (!percent_slider(id, percent, 100)) return false;
+  share = percent / 100;
+  return true;
 }
 
 // An automatic range that can be locked at its present values and then be changed.
@@ -41,12 +43,13 @@ void draw_range(ViewContext& view, const char* id, std::optional<ValueRange>& ra
   bool locked = range.has_value();
   if (ImGui::Checkbox("Lock range", &locked)) range = locked ? std::optional(automatic) : std::nullopt;
   explain(
-      "Keeps the range of the smoothed map, or of depth, from frame to frame, so that colours can be "
+      "Keeps the range of the map's local mean, or of depth, from frame to frame, so that colours can be "
       "compared");
   if (range) {
     ImGui::SameLine(view.px(112) + ImGui::GetStyle().WindowPadding.x);
     ImGui::SetNextItemWidth(-1);
     ImGui::DragFloatRange2("##range", &range->low, &range->high, step, 0, 1e5F, format, format);
+    explain("The values at both ends of the colours. Drag, or Ctrl+click to type");
     if (!(range->high > range->low)) range->high = range->low + step;
   }
   ImGui::PopID();
@@ -84,28 +87,34 @@ void draw_depths(ViewContext& view, ValueRange range) {
 }
 
 void draw_text_size(ViewContext& view) {
-  named_row("Text size", "Of text and controls; automatic = as the screen reports");
   const double now = view.state.ui_scale;
   const auto name = [](double scale) {
     return scale > 0 ? fmt::format("{:.0f} %", 100 * scale) : "automatic";
   };
-  if (!ImGui::BeginCombo("##text_size", name(now).c_str())) return;
-  for (const double scale : {0.0, 0.75, 0.9, 1.0, 1.15, 1.3, 1.5, 1.75, 2.0})
-    if (ImGui::Selectable(name(scale).c_str(), scale == now)) view.state.ui_scale = scale;
-  ImGui::EndCombo();
+  named_row("Text size", "Of text and controls; automatic = as the screen reports", [&] {
+    if (!ImGui::BeginCombo("##text_size", name(now).c_str())) return false;
+    for (const double scale : {0.0, 0.75, 0.9, 1.0, 1.15, 1.3, 1.5, 1.75, 2.0})
+      if (ImGui::Selectable(name(scale).c_str(), scale == now)) view.state.ui_scale = scale;
+    ImGui::EndCombo();
+    return true;
+  });
 }
 
 }  // namespace
 
 void draw_display_panel(ViewContext& view) {
   OverlayStyle& style = view.state.style;
-  named_row("Background", "The picture below the map: the colour image, or depth in colours");
   int background = static_cast<int>(style.background);
-  if (segments(view, "background", {"colour", "depth"}, background))
+  if (named_row("Background",
+                with_key("The picture below the map: the colour image, or depth in colours",
+                         Action::toggle_background),
+                [&] {
+                  return segments(view, "background", {"colour", "depth"}, background);
+                }))
     style.background = static_cast<Background>(background);
   if (style.background == Background::depth) {
-    named_row("Depth colours", "Near is the bright end; black has no reading");
-    palette_combo("##depth_palette", style.depth.palette);
+    named_row("Depth colours", "Near is the bright end; black has no reading",
+              [&] { return palette_combo("##depth_palette", style.depth.palette); });
     const auto automatic =
         view.result ? shown_range(view.result->frame().depth_mm, {.percentile = style.depth.percentile})
                     : std::nullopt;
@@ -113,21 +122,23 @@ void draw_display_panel(ViewContext& view) {
     if (view.result) draw_depths(view, style.depth.range_mm.value_or(range));
     draw_range(view, "depth", style.depth.range_mm, range, 10, "%.0f mm");
     if (!style.depth.range_mm) {
-      named_row("Left out", "Share of the depths beyond each end of the automatic range, in percent");
-      percent_slider("##depth_percentile", style.depth.percentile, 25);
+      named_row("Left out", "Share of the depths beyond each end of the automatic range, in percent",
+                [&] { return percent_slider("##depth_percentile", style.depth.percentile, 25); });
     }
   }
   ImGui::Spacing();
   ImGui::Checkbox("Saliency map", &view.state.show_map);
   explain(with_key("Shows the saliency map over the picture", Action::toggle_map));
   if (view.state.show_map) {
-    named_row("Map colours",
-              "turbo is a perceptually even rainbow; viridis and inferno also grow evenly in lightness");
-    palette_combo("##palette", style.map.palette);
-    named_row("Opacity", "Of the most salient pixel; less salient pixels are more transparent");
-    share_slider("##opacity", style.map.opacity);
-    named_row("Threshold", "Hides values below this share of the range");
-    share_slider("##threshold", style.map.threshold);
+    named_row(
+        "Map colours",
+        with_key("turbo is a perceptually even rainbow; viridis and inferno also grow evenly in lightness",
+                 Action::next_palette),
+        [&] { return palette_combo("##palette", style.map.palette); });
+    named_row("Opacity", "Of the most salient pixel; less salient pixels are more transparent",
+              [&] { return share_slider("##opacity", style.map.opacity); });
+    named_row("Threshold", "Hides values below this share of the range",
+              [&] { return share_slider("##threshold", style.map.threshold); });
     const ValueRange automatic =
         view.result ? shown_range(view.result->a.smooth, MapStyle{}) : ValueRange{0, 1};
     if (view.state.comparing()) {

@@ -15,67 +15,87 @@ namespace {
 
 struct Column {
   const char* name;
+  float width;  // relative to the others'
   const char* explanation;
-  double (*value)(const Fixation&);  // to sort by; nullptr: the rank
+  double (*value)(const Computed&, std::size_t index);  // to sort by
 };
+
+const Fixation& fixation_of(const Computed& computed, std::size_t index) {
+  return computed.result.attention.fixations[index];
+}
 
 double largest_extent(const Fixation& f) {
   const cv::Point3f& e = f.proto_object.extent_mm;
   return static_cast<double>(std::max({e.x, e.y, e.z}));
 }
 
-constexpr std::array<Column, 7> kColumns = {{
-    {"#",
+// The last one is shown over time only.
+constexpr std::array<Column, 8> kColumns = {{
+    {"#", 2.6F,
      "In the order in which the selector attends to them: their rank or, over time, the number of the object",
-     nullptr},
-    {"x", "Millimetres to the right of the camera",
-     [](const Fixation& f) { return static_cast<double>(f.position_mm.x); }},
-    {"y", "Millimetres below the camera",
-     [](const Fixation& f) { return static_cast<double>(f.position_mm.y); }},
-    {"z", "Millimetres in front of the camera",
-     [](const Fixation& f) { return static_cast<double>(f.position_mm.z); }},
-    {"size", "Longest side of the proto-object's box, mm; of the selector proto only", largest_extent},
-    {"saliency", "Of the map at the fixation's pixel or, over time, of its object",
-     [](const Fixation& f) { return static_cast<double>(f.saliency); }},
-    {"conf.",
+     [](const Computed&, std::size_t i) { return static_cast<double>(i); }},
+    {"x", 4.5F, "Millimetres to the right of the camera",
+     [](const Computed& c, std::size_t i) { return static_cast<double>(fixation_of(c, i).position_mm.x); }},
+    {"y", 4.5F, "Millimetres below the camera",
+     [](const Computed& c, std::size_t i) { return static_cast<double>(fixation_of(c, i).position_mm.y); }},
+    {"z", 4.5F, "Millimetres in front of the camera",
+     [](const Computed& c, std::size_t i) { return static_cast<double>(fixation_of(c, i).position_mm.z); }},
+    {"size", 4, "Longest side of the proto-object's box, mm; of the selector proto only",
+     [](const Computed& c, std::size_t i) { return largest_extent(fixation_of(c, i)); }},
+    {"sal.", 4,
+     "Saliency: the value of the map at the fixation's pixel; over time, the mean of the strongest value on "
+     "its object",
+     [](const Computed& c, std::size_t i) { return static_cast<double>(fixation_of(c, i).saliency); }},
+    {"conf.", 4.4F,
      "Confidence: how probable it is that the fixation lies on an object; of the selector proto only",
-     [](const Fixation& f) { return static_cast<double>(f.confidence.value_or(0)); }},
+     [](const Computed& c, std::size_t i) {
+       return static_cast<double>(fixation_of(c, i).confidence.value_or(0));
+     }},
+    {"looks", 4.6F, "How often the gaze has turned to the object",
+     [](const Computed& c, std::size_t i) { return static_cast<double>(c.marks->marks[i].looks); }},
 }};
 
-void draw_header() {
+int columns_of(const Computed& computed) {
+  return static_cast<int>(kColumns.size()) - (computed.marks ? 0 : 1);
+}
+
+// The names are drawn here: ImGui leaves room for an arrow in each cell, and cuts them off.
+void draw_header(int columns) {
   ImGui::TableNextRow(ImGuiTableRowFlags_Headers);
-  for (int i = 0; i < static_cast<int>(kColumns.size()); ++i) {
+  for (int i = 0; i < columns; ++i) {
+    const Column& column = kColumns[static_cast<std::size_t>(i)];
     ImGui::TableSetColumnIndex(i);
-    ImGui::TableHeader(kColumns[static_cast<std::size_t>(i)].name);
-    explain(kColumns[static_cast<std::size_t>(i)].explanation);
+    const ImVec2 corner = ImGui::GetCursorScreenPos();
+    ImGui::TableHeader((std::string("##") + column.name).c_str());
+    explain(column.explanation);
+    ImGui::GetWindowDrawList()->AddText(corner, ImGui::GetColorU32(ImGuiCol_Text), column.name);
   }
 }
 
-void sort(std::vector<int>& order, const std::vector<Fixation>& fixations) {
-  order.resize(fixations.size());
+void sort(std::vector<int>& order, const Computed& computed) {
+  order.resize(computed.result.attention.fixations.size());
   std::iota(order.begin(), order.end(), 0);
   const ImGuiTableSortSpecs* specs = ImGui::TableGetSortSpecs();
   if (specs == nullptr || specs->SpecsCount == 0) return;
   const auto& column = kColumns[static_cast<std::size_t>(specs->Specs[0].ColumnIndex)];
   const bool down = specs->Specs[0].SortDirection == ImGuiSortDirection_Descending;
-  std::ranges::stable_sort(order, [&](int a, int b) {
-    if (down) std::swap(a, b);
-    if (column.value == nullptr) return a < b;
-    return column.value(fixations[static_cast<std::size_t>(a)]) <
-           column.value(fixations[static_cast<std::size_t>(b)]);
-  });
+  const auto value = [&](int i) { return column.value(computed, static_cast<std::size_t>(i)); };
+  std::ranges::stable_sort(order,
+                           [&](int a, int b) { return down ? value(b) < value(a) : value(a) < value(b); });
 }
 
 }  // namespace
 
-std::string fixation_text(const std::vector<Fixation>& fixations) {
-  std::string text = "rank\tid\trow\tcol\tx_mm\ty_mm\tz_mm\tsize_mm\tsaliency\tconfidence\n";
-  int rank = 0;
-  for (const Fixation& f : fixations)
-    text += fmt::format("{}\t{}\t{}\t{}\t{:.1f}\t{:.1f}\t{:.1f}\t{:.1f}\t{:g}\t{}\n", ++rank,
+std::string fixation_text(const Computed& computed) {
+  std::string text = "rank\tid\trow\tcol\tx_mm\ty_mm\tz_mm\tsize_mm\tsaliency\tconfidence\tlooks\n";
+  for (std::size_t i = 0; i < computed.result.attention.fixations.size(); ++i) {
+    const Fixation& f = fixation_of(computed, i);
+    text += fmt::format("{}\t{}\t{}\t{}\t{:.1f}\t{:.1f}\t{:.1f}\t{:.1f}\t{:g}\t{}\t{}\n", i + 1,
                         f.id != 0 ? fmt::format("{}", f.id) : "", f.row, f.col, f.position_mm.x,
                         f.position_mm.y, f.position_mm.z, largest_extent(f), f.saliency,
-                        f.confidence ? fmt::format("{:.3f}", *f.confidence) : "");
+                        f.confidence ? fmt::format("{:.3f}", *f.confidence) : "",
+                        computed.marks ? fmt::format("{}", computed.marks->marks[i].looks) : "");
+  }
   return text;
 }
 
@@ -99,16 +119,22 @@ void FixationPanel::draw(ViewContext& view) {
   if (computed == nullptr || computed->result.attention.fixations.empty())
     return wrapped_text("No fixation in this frame.", Tone::quiet);
   const std::vector<Fixation>& fixations = computed->result.attention.fixations;
-  constexpr int kFlags = ImGuiTableFlags_Sortable | ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingStretchProp;
-  if (ImGui::BeginTable("fixations", static_cast<int>(kColumns.size()), kFlags)) {
-    for (const Column& column : kColumns) ImGui::TableSetupColumn(column.name);
-    draw_header();
-    sort(order_, fixations);
+  constexpr int kFlags = ImGuiTableFlags_Sortable | ImGuiTableFlags_RowBg;
+  const int columns = columns_of(*computed);
+  ImGui::PushStyleVar(ImGuiStyleVar_CellPadding, {view.px(2), view.px(2)});
+  if (ImGui::BeginTable(computed->marks ? "objects" : "fixations", columns, kFlags)) {
+    for (int i = 0; i < columns; ++i) {
+      const Column& column = kColumns[static_cast<std::size_t>(i)];
+      ImGui::TableSetupColumn(column.name, ImGuiTableColumnFlags_WidthStretch, column.width);
+    }
+    draw_header(columns);
+    sort(order_, *computed);
     for (const int index : order_) draw_row(view, *computed, index);
     ImGui::EndTable();
   }
+  ImGui::PopStyleVar();
   if (ImGui::Button("Copy as text")) {
-    ImGui::SetClipboardText(fixation_text(fixations).c_str());
+    ImGui::SetClipboardText(fixation_text(*computed).c_str());
     view.notify("Copied " + counted(fixations.size(), "fixation"));
   }
   log_place(view, "copy fixations");
@@ -152,8 +178,10 @@ void FixationPanel::draw_row(ViewContext& view, const Computed& computed, int in
   number_cell(depth ? fmt::format("{:.0f}", fixation.position_mm.y) : "–");
   number_cell(depth ? fmt::format("{:.0f}", fixation.position_mm.z) : "–");
   number_cell(object ? fmt::format("{:.0f}", largest_extent(fixation)) : "–");
-  number_cell(fmt::format("{:.2g}", fixation.saliency));
+  number_cell(saliency_text(fixation.saliency));
   number_cell(fixation.confidence ? fmt::format("{:.2f}", *fixation.confidence) : "–");
+  if (computed.marks)
+    number_cell(fmt::format("{}", computed.marks->marks[static_cast<std::size_t>(index)].looks));
 }
 
 }  // namespace saccade

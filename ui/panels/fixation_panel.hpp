@@ -18,8 +18,8 @@ class FixationPanel {
   std::vector<int> order_;  // of the rows, as the user sorts them
 };
 
-/// The table as text: a heading and a line for each fixation, with tabs.
-[[nodiscard]] std::string fixation_text(const std::vector<Fixation>& fixations);
+/// The table of a result as text: a heading and a line for each fixation, with tabs.
+[[nodiscard]] std::string fixation_text(const Computed& computed);
 
 /// What is known of the object of a fixation over time: "Object 7, seen for 3.2 s (96 frames), ...". Only
 /// with Computed::marks. `index` counts from 0.

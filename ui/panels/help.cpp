@@ -15,19 +15,19 @@ constexpr std::array<Row, 9> kMouse = {{
     {"Wheel", "zooms at the pointer"},
     {"Drag", "moves the picture, turns the points"},
     {"Right drag, Shift+drag", "moves the points"},
-    {"Click", "pins the probe; on a mark: follows its fixation"},
+    {"Click, also in the points", "pins the probe; on a mark: follows its fixation"},
     {"Shift+click, while pinned", "measures the distance in space between both pixels"},
     {"Arrow keys, while pinned", "move the probe by a pixel, with Shift by ten"},
     {"Esc", "frees the probe and the fixation, closes a list"},
     {"Double click", "fits the picture; in the table: centres"},
-    {"Drop a file", "opens it"},
+    {"Drop a file or folder", "opens it"},
 }};
 
 constexpr std::array<Row, 9> kSeen = {{
     {"Colours over the picture",
-     "The saliency map, smoothed for display. Strong colours mark what attracts attention; the legend below "
-     "the "
-     "picture has the values. Weak values are transparent."},
+     "The mean of the saliency around each pixel. Strong colours mark what attracts attention; the legend "
+     "below the "
+     "picture has the values, and a tick for the pixel under the mouse. Weak values are transparent."},
     {"Numbered discs",
      "Fixations, in the order in which the selector attends to them; the first is green. Over time each "
      "object "
@@ -36,9 +36,9 @@ constexpr std::array<Row, 9> kSeen = {{
     {"Lines between them", "Frame by frame: the scan path, from each fixation to the next."},
     {"Outlines", "Proto-objects: the surface that the selector takes as one object around a fixation."},
     {"saliency",
-     "Everywhere the value of the map at a pixel as it was computed, as in the files. The legend and the "
-     "colours are of the smoothed map, whose peaks are lower; where a number is of the smoothed map, it says "
-     "so."},
+     "Everywhere the value of the map as it was computed, as in the files. Its peaks are only a few pixels "
+     "wide, so "
+     "the colours and their legend show its local mean, which is lower than the peaks, and say so."},
     {"Bars of the time line",
      "The largest saliency of each computed frame; grey where the settings have changed since."},
     {"Draft", "A quick result from coarser levels, while the exact one is computed."},

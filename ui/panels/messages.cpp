@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <functional>
 
+#include <fmt/format.h>
 #include <imgui.h>
 
 #include "ui/panels/panels.hpp"
@@ -8,10 +9,21 @@
 
 namespace saccade {
 
-void ViewContext::notify(std::string line) {
+namespace {
+
+constexpr std::size_t kLongestMessage = 400;  // bytes: what of it has room in a small window
+
+}  // namespace
+
+void ViewContext::notify(const std::string& line) {
   constexpr double kNoticeTime_s = 4;
-  notice = std::move(line);
+  notice = shortened(line, kLongestMessage);
   notice_until = ImGui::GetTime() + kNoticeTime_s;
+}
+
+void ViewContext::report(const std::string& error) {
+  std::string text = shortened(error, kLongestMessage);
+  if (errors.empty() || errors.back() != text) errors.push_back(std::move(text));
 }
 
 std::optional<cv::Point3d> ViewContext::point_at(std::optional<cv::Point> pixel) const {
@@ -30,13 +42,14 @@ struct Bar {
 };
 
 struct BarButton {
-  const char* label;
+  std::string label;
   const char* place;  // in the log
+  std::string explanation;
   std::function<void()> press;
 };
 
-float width_of(const char* label) {
-  return ImGui::CalcTextSize(label).x + 2 * ImGui::GetStyle().FramePadding.x;
+float width_of(const std::string& label) {
+  return ImGui::CalcTextSize(label.c_str()).x + 2 * ImGui::GetStyle().FramePadding.x;
 }
 
 // A wrapped text with buttons at its right. Returns whether the user dismissed it.
@@ -58,8 +71,9 @@ bool draw_bar(ViewContext& view, const Bar& bar, const std::string& text,
   ImGui::PopTextWrapPos();
   ImGui::SetCursorPos({ImGui::GetWindowWidth() - view.px(12) - right, view.px(8)});
   for (const BarButton& button : buttons) {
-    if (ImGui::Button(button.label)) button.press();
+    if (ImGui::Button(button.label.c_str())) button.press();
     log_place(view, button.place);
+    explain(button.explanation);
     ImGui::SameLine(0, gap);
   }
   const bool dismissed = ImGui::Button("×");
@@ -82,8 +96,9 @@ void draw_connected(ViewContext& view) {
   if (view.connected.empty()) return;
   const DeviceChoice device = view.connected.back();
   const Bar bar{"connected", "dismiss connected", view.colours->panel, view.colours->text};
-  const bool dismissed = draw_bar(view, bar, device.name + " was connected.",
-                                  {{"Open it", "open connected", [&] { view.open(device.source); }}});
+  const bool dismissed =
+      draw_bar(view, bar, device.name + " was connected.",
+               {{"Open it", "open connected", "Opens " + device.source, [&] { view.open(device.source); }}});
   if (dismissed) view.connected.pop_back();
 }
 
@@ -92,25 +107,38 @@ void draw_recorded(ViewContext& view) {
   const Bar bar{"recorded", "dismiss recorded", view.colours->panel, view.colours->text};
   const std::string file = view.recorded;
   const bool dismissed =
-      draw_bar(view, bar, "Recorded " + file, {{"Play it", "play recorded", [&] { view.open(file); }}});
+      draw_bar(view, bar, "Recorded " + file,
+               {{"Play it", "play recorded", "Opens the recording in place of the present source",
+                 [&] { view.open(file); }}});
   if (dismissed) view.recorded.clear();
 }
 
-// Each error stays until the user dismisses it; the rest of the window goes on working.
+// Each error stays until the user dismisses it; the rest of the window goes on working, so only the newest
+// have room.
 void draw_errors(ViewContext& view) {
   std::vector<BarButton> buttons;
   if (view.source.phase == SessionState::Phase::ended)
-    buttons.push_back({"Try again", "try again", [&] { view.open(view.source.uri); }});
+    buttons.push_back({"Try again", "try again",
+                       "Opens " + shortened(view.source.uri, kLongestMessage) + " again",
+                       [&] { view.open(view.source.uri); }});
   if (view.source.phase != SessionState::Phase::open)
-    buttons.push_back({"Open another…", "open another", [&] { view.act(Action::open_source); }});
+    buttons.push_back(
+        {"Open another…", "open another", "Chooses another source", [&] { view.act(Action::open_source); }});
   const Bar bar{"error", "dismiss error", view.colours->error_back, view.colours->error};
+  constexpr int kMostBars = 3;
+  const auto errors = static_cast<int>(view.errors.size());
+  bool all_gone = false;
+  if (errors > kMostBars)
+    buttons.push_back({fmt::format("Dismiss all {}", errors), "dismiss all errors",
+                       "Also those that are not shown", [&] { all_gone = true; }});
   int gone = -1;
-  for (int i = 0; i < static_cast<int>(view.errors.size()); ++i) {
+  for (int i = std::max(0, errors - kMostBars); i < errors; ++i) {
     ImGui::PushID(i);
     if (draw_bar(view, bar, view.errors[static_cast<std::size_t>(i)], buttons)) gone = i;
     ImGui::PopID();
   }
   if (gone >= 0) view.errors.erase(view.errors.begin() + gone);
+  if (all_gone) view.errors.clear();
 }
 
 }  // namespace

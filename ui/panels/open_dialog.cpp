@@ -1,7 +1,7 @@
 #include "ui/panels/open_dialog.hpp"
 
 #include <algorithm>
-#include <cstring>
+#include <utility>
 
 #include <fmt/format.h>
 #include <imgui.h>
@@ -9,15 +9,10 @@
 #include "scene/scene.hpp"
 #include "sources/open_source.hpp"
 #include "ui/panels/widgets.hpp"
+#include "ui/session/typed_path.hpp"
 
 namespace saccade {
 namespace {
-
-void set_text(std::span<char> text, const std::string& value) {
-  const std::size_t length = std::min(value.size(), text.size() - 1);
-  std::memcpy(text.data(), value.data(), length);
-  text[length] = '\0';
-}
 
 std::string with_slash(const std::string& folder) { return folder.ends_with('/') ? folder : folder + "/"; }
 
@@ -28,10 +23,12 @@ bool row(ViewContext& view, const std::string& name, const std::string& dim, con
   log_place(view, ("open " + name).c_str());
   explain(tip);
   ImGui::SameLine(0, 0);
-  ImGui::TextUnformatted(name.c_str());
+  clipped_text(name, ImGui::GetContentRegionAvail().x);
   if (!dim.empty()) {
     ImGui::SameLine();
-    ImGui::TextDisabled("%s", dim.c_str());
+    ImGui::PushStyleColor(ImGuiCol_Text, view.colours->dim_text);
+    clipped_text(dim, ImGui::GetContentRegionAvail().x);
+    ImGui::PopStyleColor();
   }
   ImGui::PopID();
   return chosen;
@@ -51,8 +48,14 @@ void OpenDialog::show() {
 }
 
 void OpenDialog::draw(ViewContext& view) {
+  const bool closes = std::exchange(closing_, false);
   if (!begin_dialog(view, "Open a source", opening_, 860)) return;
-  contents_ = lister_.poll(text_.data());
+  closes ? ImGui::CloseCurrentPopup() : draw_contents(view);
+  ImGui::EndPopup();
+}
+
+void OpenDialog::draw_contents(ViewContext& view) {
+  contents_ = lister_.poll(typed_path(text_.data()));
   std::string chosen;
   ImGui::PushTextWrapPos(0);
   ImGui::TextDisabled("A path, or: %s", source_forms().c_str());
@@ -63,6 +66,8 @@ void OpenDialog::draw(ViewContext& view) {
     chosen = text_.data();
   ImGui::SameLine();
   if (ImGui::Button("Open", {-1, 0})) chosen = text_.data();
+  explain("Opens the source that is named at the left");
+  draw_desktop_dialogs(view);
   const float height = std::min(view.px(340), ImGui::GetIO().DisplaySize.y * 0.5F);
   ImGui::BeginChild("places", {ImGui::GetContentRegionAvail().x * 0.42F, height});
   draw_places(view, chosen);
@@ -71,11 +76,28 @@ void OpenDialog::draw(ViewContext& view) {
   ImGui::BeginChild("folder", {0, height});
   draw_folder(view, chosen);
   ImGui::EndChild();
-  if (!chosen.empty()) {
-    view.open(chosen.ends_with('/') && chosen.size() > 1 ? chosen.substr(0, chosen.size() - 1) : chosen);
-    ImGui::CloseCurrentPopup();
-  }
-  ImGui::EndPopup();
+  chosen = typed_path(chosen);
+  if (chosen.empty()) return;
+  view.open(chosen.ends_with('/') && chosen.size() > 1 ? chosen.substr(0, chosen.size() - 1) : chosen);
+  ImGui::CloseCurrentPopup();
+}
+
+void OpenDialog::draw_desktop_dialogs(ViewContext& view) {
+  if (!view.file_dialog) return;
+  const auto ask = [&](FileDialog::Kind kind, const char* title) {
+    view.file_dialog({kind, title, contents_.folder, "", ""}, [this, &view](const std::string& path) {
+      view.open(path);
+      close();
+    });
+  };
+  if (ImGui::Button("Choose a file…"))
+    ask(FileDialog::Kind::open_file, "Open a recording, an image or a video");
+  log_place(view, "choose a file");
+  explain("By the desktop's own dialog");
+  ImGui::SameLine();
+  if (ImGui::Button("Choose a folder…")) ask(FileDialog::Kind::open_folder, "Open a folder of images");
+  log_place(view, "choose a folder");
+  explain("By the desktop's own dialog");
 }
 
 // Everything that can be opened without a path.
@@ -111,6 +133,7 @@ void OpenDialog::draw_folder(ViewContext& view, std::string& chosen) {
   if (contents_.source) {
     if (ImGui::Button("Open this folder")) chosen = contents_.folder;
     log_place(view, "open this folder");
+    explain("Plays the images of this folder");
   }
   if (!contents_.parent.empty() && row(view, "..", "", "The folder above"))
     set_text(text_, with_slash(contents_.parent));

@@ -2,6 +2,8 @@
 
 #include <array>
 
+#include <fmt/format.h>
+
 namespace saccade {
 namespace {
 
@@ -46,6 +48,11 @@ ImU32 series_colour(int index) {
   return ImGui::ColorConvertFloat4ToU32({red, green, blue, 1});
 }
 
+std::string saliency_text(float saliency) {
+  if (saliency >= 0.01F) return fmt::format("{:.2f}", saliency);
+  return saliency < 1e-4F ? "0" : fmt::format("{:.1g}", saliency);
+}
+
 void wrapped_text(const std::string& text, Tone tone) {
   ImGui::PushStyleColor(ImGuiCol_Text, tone_colour(tone));
   ImGui::PushTextWrapPos(0);
@@ -70,13 +77,15 @@ bool begin_labelled_rows(const char* id, const char* widest_label) {
   return true;
 }
 
-void labelled_row(const char* label, const std::string& value, Tone tone) {
+void labelled_row(const char* label, const std::string& value, Tone tone, const std::string& explanation) {
   ImGui::TableNextColumn();
   ImGui::PushStyleColor(ImGuiCol_Text, tone_colour(Tone::quiet));
   ImGui::TextUnformatted(label);
   ImGui::PopStyleColor();
+  explain(explanation);
   ImGui::TableNextColumn();
   wrapped_text(value, tone);
+  explain(explanation);
 }
 
 void swatch(ImU32 colour) {
@@ -89,7 +98,7 @@ void swatch(ImU32 colour) {
   ImGui::SameLine(0, side / 2);
 }
 
-void named_row(const char* name, const char* explanation) {
+void begin_named_row(const char* name, const std::string& explanation) {
   const float left = ImGui::GetCursorPosX();
   ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted(name);
@@ -99,7 +108,10 @@ void named_row(const char* name, const char* explanation) {
 }
 
 void explain(const std::string& text) {
-  if (text.empty() || !ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
+  if (!text.empty() && ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) show_tool_tip(text);
+}
+
+void show_tool_tip(const std::string& text) {
   ImGui::BeginTooltip();
   ImGui::PushTextWrapPos(ImGui::GetFontSize() * 26);
   ImGui::TextUnformatted(text.c_str());

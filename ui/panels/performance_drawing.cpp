@@ -37,18 +37,22 @@ void draw_rates(const StageHistory& history, const PerformanceFacts& facts,
   const double rate_hz = history.rate_hz(now);
   std::string rate = rate_hz > 0 ? fmt::format("{:.1f} frames/s", rate_hz) : "no new frames";
   if (facts.source_rate_hz > 0) rate += fmt::format(" (source: {:.1f})", facts.source_rate_hz);
-  labelled_row("frame rate", rate);
+  labelled_row("frame rate", rate, Tone::plain,
+               "Computed frames per second, and the rate that the source has by itself.");
   const DurationSummary latency = history.latency();
-  labelled_row("latency", history.size() == 0
-                              ? "-"
-                              : fmt::format("{} ms (median {}, 95 % {})", milliseconds(latency.last_ms),
-                                            milliseconds(latency.p50_ms), milliseconds(latency.p95_ms)));
+  labelled_row("latency",
+               history.size() == 0 ? "-"
+                                   : fmt::format("{} ms (median {}, 95 % {})", milliseconds(latency.last_ms),
+                                                 milliseconds(latency.p50_ms), milliseconds(latency.p95_ms)),
+               Tone::plain, "From the capture of a frame until its result can be shown.");
   if (facts.window_last_ms && facts.window_worst_ms)
     labelled_row("window",
                  fmt::format("{} ms to draw (longest {})", milliseconds(*facts.window_last_ms),
                              milliseconds(*facts.window_worst_ms)),
-                 *facts.window_worst_ms > 50 ? Tone::warning : Tone::plain);
-  labelled_row("computing", fmt::format("{}, SIMD {}", counted(facts.workers, "worker"), facts.simd));
+                 *facts.window_worst_ms > 50 ? Tone::warning : Tone::plain,
+                 "Time to draw the window, of the last frame and of the slowest since the start.");
+  labelled_row("computing", fmt::format("{}, SIMD {}", counted(facts.workers, "worker"), facts.simd),
+               Tone::plain, "Threads that compute, and the instructions that they use.");
   ImGui::EndTable();
 }
 
@@ -71,6 +75,7 @@ void draw_stages(const StageHistory& history) {
   }
   ImGui::TableNextColumn();
   ImGui::TextUnformatted("all stages");
+  explain("The sum of the stages of a frame.");
   duration_row(history.total());
   ImGui::EndTable();
 }
@@ -162,16 +167,18 @@ void draw_ledger(const Ledger& ledger) {
   if (!begin_labelled_rows("ledger", "frame rate")) return;
   const auto count = [](std::int64_t frames) { return fmt::format("{}", frames); };
   const auto trouble = [](std::int64_t frames) { return frames > 0 ? Tone::warning : Tone::plain; };
-  labelled_row("captured", count(ledger.captured));
-  labelled_row("processed", count(ledger.processed));
-  labelled_row("overtaken", count(ledger.replaced), trouble(ledger.replaced));
-  explain("Dropped because a newer frame came before their turn: the model is slower than the source.");
-  labelled_row("stopped", count(ledger.stopped()), trouble(ledger.stopped()));
-  explain("Dropped because the pipeline was stopped, or failed, before they were computed.");
-  labelled_row("rejected", count(ledger.rejected), ledger.rejected > 0 ? Tone::bad : Tone::plain);
-  explain("Not usable: unreadable, or of another size than the source said.");
-  labelled_row("in flight", count(ledger.in_flight()));
-  explain("Captured = processed + overtaken + stopped + rejected + in flight. Nothing is lost silently.");
+  labelled_row(
+      "captured", count(ledger.captured), Tone::plain,
+      "Frames of the source. Captured = processed + overtaken + stopped + rejected + in flight: nothing is "
+      "lost silently.");
+  labelled_row("processed", count(ledger.processed), Tone::plain, "Frames that were computed.");
+  labelled_row("overtaken", count(ledger.replaced), trouble(ledger.replaced),
+               "Dropped because a newer frame came before their turn: the model is slower than the source.");
+  labelled_row("stopped", count(ledger.stopped()), trouble(ledger.stopped()),
+               "Dropped because the pipeline was stopped, or failed, before they were computed.");
+  labelled_row("rejected", count(ledger.rejected), ledger.rejected > 0 ? Tone::bad : Tone::plain,
+               "Not usable: unreadable, or of another size than the source said.");
+  labelled_row("in flight", count(ledger.in_flight()), Tone::plain, "Being computed, or waiting for it.");
   ImGui::EndTable();
 }
 

@@ -8,9 +8,8 @@
 
 #include <fmt/format.h>
 
-#include "core/text.hpp"
 #include "models/model.hpp"
-#include "ui/panels/fixation_panel.hpp"
+#include "ui/panels/picture_clicks.hpp"
 #include "ui/panels/widgets.hpp"
 #include "ui/session/map_difference.hpp"
 
@@ -39,8 +38,8 @@ void draw_shapes(ImDrawList& draw, const OverlayShapes& shapes, ImVec2 corner) {
     const ImVec2 size = ImGui::CalcTextSize(mark.text.c_str());
     const float scale = std::min(1.0F, mark.radius * 1.45F / std::max(size.x, size.y));
     draw.AddText(ImGui::GetFont(), ImGui::GetFontSize() * scale,
-                 {centre.x - size.x * scale / 2, centre.y - size.y * scale / 2}, as_u32(mark.rim),
-                 mark.text.c_str());
+                 {centre.x - size.x * scale / 2, centre.y - size.y * scale / 2},
+                 IM_COL32(255, 255, 255, mark.rim.a), mark.text.c_str());  // dark colours cannot be read
   }
   for (const auto& ring : shapes.rings)
     draw.AddCircle({corner.x + ring.centre.x, corner.y + ring.centre.y}, ring.radius, as_u32(ring.colour), 0,
@@ -78,7 +77,7 @@ std::string remark(const ViewContext& view, const Computed& computed) {
   cv::minMaxLoc(computed.smooth, nullptr, &largest);
   const ValueRange& range = *style.map.range;
   if (largest <= static_cast<double>(range.low) + 0.01 * static_cast<double>(range.high - range.low))
-    return fmt::format("the map is below the locked range (reaches {:.2g})", largest);
+    return "below the locked range (local mean up to " + saliency_text(static_cast<float>(largest)) + ")";
   return "";
 }
 
@@ -114,7 +113,15 @@ void draw_title(const ViewContext& view, const Computed& computed, const Picture
 struct Legend {
   std::string low, high;                          // the values at its ends
   std::function<cv::Vec3b(double share)> colour;  // BGR
+  const char* explanation;
+  std::optional<double> pointed = std::nullopt;  // the place of the pixel under the mouse, 0..1
 };
+
+// The tick of the pixel under the mouse.
+void draw_tick(ImDrawList& draw, ImVec2 at, float half, float width) {
+  draw.AddLine({at.x, at.y - half}, {at.x, at.y + half}, IM_COL32(0, 0, 0, 255), 3 * width);
+  draw.AddLine({at.x, at.y - half}, {at.x, at.y + half}, IM_COL32(255, 255, 255, 255), width);
+}
 
 // Returns its width; draws nothing and returns 0 where there is no room.
 float draw_legend(const ViewContext& view, const Legend& legend, ImVec2 right_bottom, float room) {
@@ -136,22 +143,50 @@ float draw_legend(const ViewContext& view, const Legend& legend, ImVec2 right_bo
     draw.AddRectFilled({x0, y - bar / 2}, {x0 + width / kPieces + 0.5F, y + bar / 2},
                        IM_COL32(c[2], c[1], c[0], 255));
   }
+  if (legend.pointed)
+    draw_tick(draw, {x + width * static_cast<float>(std::clamp(*legend.pointed, 0.0, 1.0)), y}, 0.8F * bar,
+              view.px(1));
+  if (ImGui::IsWindowHovered() && ImGui::IsMouseHoveringRect(corner, right_bottom))
+    show_tool_tip(legend.explanation);
   return texts + width;
 }
 
-Legend map_legend(const Computed& computed, const MapStyle& style) {
+// Where a value is in a range; none if that is empty.
+std::optional<double> share_of(float value, const ValueRange& range) {
+  if (!(range.high > range.low)) return std::nullopt;
+  return static_cast<double>((value - range.low) / (range.high - range.low));
+}
+
+// The pixel whose values are shown: the pinned one, or the one under the mouse; none if it is on the other
+// picture.
+std::optional<cv::Point> pointed_pixel(const ViewContext& view, const PictureSide& side) {
+  const std::optional<cv::Point> pixel = view.pinned ? view.pinned : view.pointer;
+  const bool on_b = view.pinned ? view.pinned_on_b : view.pointer_on_b;
+  const bool inside = pixel && cv::Rect({}, view.result->frame().size()).contains(*pixel);
+  return inside && on_b == side.is_b ? pixel : std::nullopt;
+}
+
+Legend map_legend(const Computed& computed, const MapStyle& style, std::optional<cv::Point> pixel) {
   const ValueRange range = shown_range(computed.smooth, style);
-  return {fmt::format("smoothed saliency {:.2g}", range.low), fmt::format("{:.2g}", range.high),
-          [&style](double share) {
-            // As on the picture, the strength is the square root of the place in the range.
-            return colours_of(style.palette)[static_cast<std::size_t>(255 * std::sqrt(share))];
-          }};
+  Legend legend{
+      "local mean of saliency " + saliency_text(range.low), saliency_text(range.high),
+      [&style](double share) {
+        // As on the picture, the strength is the square root of the place in the range.
+        return colours_of(style.palette)[static_cast<std::size_t>(255 * std::sqrt(share))];
+      },
+      "The colours show the mean of the saliency around each pixel, since its peaks are only a few pixels "
+      "wide; the mean is lower than they are. All other numbers called saliency are values of the map "
+      "itself, as in the files. The tick is the pixel under the mouse"};
+  if (pixel && computed.smooth.size() == computed.result.maps.master.size())
+    legend.pointed = share_of(computed.smooth(*pixel), range);
+  return legend;
 }
 
 Legend difference_legend(const ViewResult& result) {
   const float largest = map_difference(result.a.smooth, result.b.smooth).largest;
-  return {fmt::format("B stronger by {:.2g}", largest), fmt::format("A by {:.2g}", largest),
-          [](double share) { return difference_colour(2 * share - 1); }};
+  return {"B stronger by " + saliency_text(largest), "A by " + saliency_text(largest),
+          [](double share) { return difference_colour(2 * share - 1); },
+          "The difference of the maps A and B, both as the mean around each pixel"};
 }
 
 // The legends, from the right end of the strip below the picture; returns the width that they leave.
@@ -165,31 +200,34 @@ float draw_legends(const ViewContext& view, const Computed& computed, const Pict
     if (width > 0) room -= width + pad;
   };
   const MapStyle style = shown_map_style(view.state, *view.result);
+  const std::optional<cv::Point> pixel = pointed_pixel(view, side);
   if (view.state.show_map && shows_difference(view))
     add(difference_legend(*view.result));
   else if (view.state.show_map && computed.error.empty())
-    add(map_legend(computed, style));
-  if (depth_range)
-    add({fmt::format("{:.0f} mm", depth_range->low), fmt::format("{:.0f} mm", depth_range->high),
-         [&](double share) { return depth_colour(view.state.style.depth.palette, share); }});
+    add(map_legend(computed, style, pixel));
+  if (!depth_range) return room;
+  Legend depth{fmt::format("{:.0f} mm", depth_range->low), fmt::format("{:.0f} mm", depth_range->high),
+               [&](double share) { return depth_colour(view.state.style.depth.palette, share); },
+               "Depth along the camera's axis; black has no reading. The tick is the pixel under the mouse"};
+  const float at_pixel = pixel ? view.result->frame().depth_mm(*pixel) : 0;
+  if (at_pixel > 0) depth.pointed = share_of(at_pixel, *depth_range);
+  add(depth);
   return room;
 }
 
 // The values at the pinned pixel, or under the mouse, in the strip below the picture; as many as there is
 // room for.
 void draw_pointer(const ViewContext& view, const Computed& computed, const PictureSide& side, float room) {
-  const std::optional<cv::Point> pixel = view.pinned ? view.pinned : view.pointer;
-  const bool on_b = view.pinned ? view.pinned_on_b : view.pointer_on_b;
+  const std::optional<cv::Point> pixel = pointed_pixel(view, side);
   const cv::Mat1f& map = computed.result.maps.master;
-  if (!pixel || on_b != side.is_b || !cv::Rect({}, map.size()).contains(*pixel)) return;
+  if (!pixel || map.size() != view.result->frame().size()) return;
   const cv::Point p = *pixel;
   const float depth = view.result->frame().depth_mm(p);
   const std::string mm = depth > 0 ? fmt::format("{:.0f} mm", depth) : "no depth";
-  const std::string saliency = fmt::format("saliency {:.2f}", map(p));
-  const std::string smoothed = fmt::format("smoothed {:.2f}", computed.smooth(p));
+  const std::string value = saliency_text(map(p));
   for (const std::string& text :
-       {fmt::format("row {}  col {}   {}   {}   {}", p.y, p.x, mm, saliency, smoothed),
-        fmt::format("{}   {}   {}", mm, saliency, smoothed), fmt::format("{}   {:.2f}", mm, map(p))}) {
+       {fmt::format("row {}  col {}   {}   saliency {}", p.y, p.x, mm, value),
+        fmt::format("{}   saliency {}", mm, value), fmt::format("{}   {}", mm, value)}) {
     const ImVec2 size = chip_size(view, text);
     if (size.x > room) continue;
     const ImVec2 corner{side.clip_low.x + view.px(8), side.clip_high.y + side.strip - view.px(3) - size.y};
@@ -239,23 +277,6 @@ void draw_rings(const ViewContext& view, const PictureSide& side, const OverlayS
     draw.AddCircle(centre, mark.radius + view.px(3), view.colours->accent, 0,
                    view.px(index == view.locked ? 3 : 1.5));
   }
-}
-
-// The tool tip of the fixation under the mouse.
-void explain_fixation(const Computed& computed, int rank) {
-  const Fixation& f = computed.result.attention.fixations[static_cast<std::size_t>(rank)];
-  std::string text = computed.marks ? object_text(computed, rank) : fmt::format("Fixation {}", rank + 1);
-  text += fmt::format("\nrow {}, column {}\nsaliency {:.3f}", f.row, f.col, f.saliency);
-  if (f.confidence) text += fmt::format("\nconfidence {:.2f}", *f.confidence);
-  text += f.position_mm.z > 0 ? fmt::format("\nx y z {:.0f}, {:.0f}, {:.0f} mm", f.position_mm.x,
-                                            f.position_mm.y, f.position_mm.z)
-                              : "\nno depth there";
-  if (f.proto_object.pixels > 0)
-    text +=
-        fmt::format("\nobject of {}, {:.0f} x {:.0f} x {:.0f} mm", counted(f.proto_object.pixels, "pixel"),
-                    f.proto_object.extent_mm.x, f.proto_object.extent_mm.y, f.proto_object.extent_mm.z);
-  text += "\nA click follows it from frame to frame";
-  ImGui::SetTooltip("%s", text.c_str());
 }
 
 }  // namespace

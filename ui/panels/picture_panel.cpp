@@ -6,6 +6,7 @@
 #include <imgui.h>
 
 #include "ui/panels/panels.hpp"
+#include "ui/panels/picture_clicks.hpp"
 #include "ui/panels/widgets.hpp"
 #include "ui/session/map_difference.hpp"
 
@@ -168,31 +169,15 @@ void PicturePanel::handle_mouse(ViewContext& view, const PictureSide& side) {
   if (ImGui::IsMouseReleased(ImGuiMouseButton_Left) && travelled < view.px(4)) click(view, side);
 }
 
-// On a mark: locks its fixation, or frees it. Beside one: pins the probe, or frees it.
 void PicturePanel::click(ViewContext& view, const PictureSide& side) {
   const Computed& computed = side.is_b ? view.result->b : view.result->a;
   const OverlayShapes shapes = overlay_shapes(computed, view.state.style, layers_->view, view.unit);
   const ImVec2 mouse = ImGui::GetIO().MousePos;
   const int mark = mark_under(shapes, as_point({mouse.x - side.corner.x, mouse.y - side.corner.y}));
-  if (mark >= 0 && !side.is_b) {
-    if (mark == view.locked)
-      view.lock.unlock();
-    else
-      view.lock.lock(computed.result.attention.fixations[static_cast<std::size_t>(mark)]);
-    return;
-  }
-  if (view.pinned && ImGui::GetIO().KeyShift) {
-    view.measured = view.pointer;
-    return;
-  }
-  view.measured.reset();
-  if (view.pinned) {
-    view.pinned.reset();
-    return;
-  }
-  view.pinned = view.pointer;
-  view.pinned_on_b = side.is_b;
-  view.lock.unlock();
+  if (mark >= 0 && !side.is_b)
+    click_mark(view, mark);
+  else
+    click_pixel(view, view.pointer, side.is_b);
 }
 
 void PicturePanel::draw_side(ViewContext& view, const PictureSide& side) {

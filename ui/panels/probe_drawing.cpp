@@ -20,16 +20,21 @@ std::string vector_text(const cv::Vec3d& v, int digits) {
 void draw_pixel(const ProbeShown& shown) {
   if (!begin_labelled_rows("pixel", "x y z, mm ")) return;
   const Probe& probe = shown.probe;
-  labelled_row("pixel", fmt::format("row {}, column {}", probe.row, probe.col));
+  labelled_row("pixel", fmt::format("row {}, column {}", probe.row, probe.col), Tone::plain,
+               "Of the depth image; rows from the top and columns from the left, from 0.");
   if (probe.depth_mm > 0) {
-    labelled_row("depth", fmt::format("{:.1f} mm", probe.depth_mm));
-    labelled_row("x y z, mm", vector_text(cv::Vec3d(probe.position_mm), 1));
+    labelled_row("depth", fmt::format("{:.1f} mm", probe.depth_mm), Tone::plain,
+                 "Along the camera's axis, not the distance from the camera.");
+    labelled_row("x y z, mm", vector_text(cv::Vec3d(probe.position_mm), 1), Tone::plain,
+                 "The point in space: right of, below and in front of the camera.");
   } else {
     labelled_row("depth", "no reading", Tone::warning);
     labelled_row("x y z, mm", "-");
   }
-  labelled_row("normal", probe.normal ? vector_text(*probe.normal, 3) : "none");
-  labelled_row("saliency", fmt::format("{:.4f}", shown.saliency));
+  labelled_row("normal", probe.normal ? vector_text(*probe.normal, 3) : "none", Tone::plain,
+               "Direction of the surface there, of length 1.");
+  labelled_row("saliency", fmt::format("{:.4f}", shown.saliency), Tone::plain,
+               "The value of the map at this pixel, as in the files.");
   ImGui::EndTable();
 }
 
@@ -94,6 +99,7 @@ void draw_levels(const ProbeShown& shown, int listed, ProbePanelState& state) {
   ImGui::TableNextRow(ImGuiTableRowFlags_Headers);
   ImGui::TableNextColumn();
   wrapped_text("level", Tone::quiet);
+  explain("The level of the pyramid; each is half the size of the one before.");
   number_cell("adds", Tone::quiet);
   explain("What the level adds to the saliency of this pixel: its map, interpolated here, times its weight.");
   ImGui::TableNextColumn();
@@ -131,7 +137,9 @@ void draw_planes(const LevelProbe& level) {
   for (const char* name : {"plane", "score", "w1", "w2", "dD", "dd"}) ImGui::TableSetupColumn(name);
   ImGui::TableNextRow(ImGuiTableRowFlags_Headers);
   number_cell("plane", Tone::quiet);
+  explain("The candidates for the plane of symmetry; the best one wins.");
   number_cell("score", Tone::quiet);
+  explain("How well the two halves of the window mirror each other at the plane, 0 to 4.");
   number_cell("w1", Tone::quiet);
   explain(
       "omega_1, Eq. (8): how perpendicular the halves' common normal is to the line between them, 0 to 1.");

@@ -108,16 +108,18 @@ void draw_devices(const SensorFacts& facts, SensorActions& actions) {
 
 void draw_mode(const SensorFacts& facts, SensorActions& actions) {
   if (facts.modes.empty()) return;
-  named_row("Mode", "Size and rate of the depth images. A change opens the sensor again.");
-  const bool open = ImGui::BeginCombo("##mode", to_text(facts.mode).c_str());
-  if (!open) actions.places.push_back(place_of_item("Mode"));
-  if (!open) return;
-  for (const SensorMode& mode : facts.modes) {
-    if (ImGui::Selectable(to_text(mode).c_str(), mode == facts.mode) && mode != facts.mode)
-      actions.mode = mode;
-    actions.places.push_back(place_of_item(to_text(mode)));
-  }
-  ImGui::EndCombo();
+  named_row("Mode", "Size and rate of the depth images. A change opens the sensor again.", [&] {
+    const bool open = ImGui::BeginCombo("##mode", to_text(facts.mode).c_str());
+    if (!open) actions.places.push_back(place_of_item("Mode"));
+    if (!open) return false;
+    for (const SensorMode& mode : facts.modes) {
+      if (ImGui::Selectable(to_text(mode).c_str(), mode == facts.mode) && mode != facts.mode)
+        actions.mode = mode;
+      actions.places.push_back(place_of_item(to_text(mode)));
+    }
+    ImGui::EndCombo();
+    return true;
+  });
 }
 
 // A switch of the sensor, if it has that one. A change goes into `request`.
@@ -137,9 +139,11 @@ void draw_exposure(const SensorValues& values, SensorActions& actions) {
   draw_switch("Automatic exposure", values.auto_exposure, "The colour camera sets its exposure itself.",
               &SensorValues::auto_exposure, actions);
   if (!values.exposure || values.auto_exposure.value_or(false)) return;
-  named_row("Exposure", "In the sensor's own unit; larger is brighter. Press Enter to set it.");
   int exposure = *values.exposure;
-  if (!ImGui::InputInt("##exposure", &exposure, 1, 10, ImGuiInputTextFlags_EnterReturnsTrue)) return;
+  if (!named_row("Exposure", "In the sensor's own unit; larger is brighter. Press Enter to set it.", [&] {
+        return ImGui::InputInt("##exposure", &exposure, 1, 10, ImGuiInputTextFlags_EnterReturnsTrue);
+      }))
+    return;
   if (!actions.request) actions.request.emplace();
   actions.request->exposure = std::max(exposure, 0);
 }

@@ -13,6 +13,7 @@
 #include "ui/panels/widgets.hpp"
 #include "ui/session/sensor_settings_sync.hpp"
 #include "ui/session/snapshot.hpp"
+#include "ui/session/typed_path.hpp"
 
 namespace saccade {
 namespace {
@@ -44,26 +45,41 @@ std::filesystem::path SensorPanel::folder(const ViewContext& view) const {
   return view.state.folder.empty() ? usual_folder_ : std::filesystem::path(view.state.folder);
 }
 
-// Sets the folder once the user has typed one that exists.
 void SensorPanel::edit_folder(ViewContext& view) {
-  named_row("Output folder",
-            "For recordings and snapshots; empty = the folder in which the viewer was started");
-  const std::string& chosen = view.state.folder;
-  if (!ImGui::IsAnyItemActive()) {
-    typed_folder_.fill('\0');
-    chosen.copy(typed_folder_.data(), typed_folder_.size() - 1);
-  }
-  ImGui::InputText("##folder", typed_folder_.data(), typed_folder_.size());
+  if (!ImGui::IsAnyItemActive()) set_text(typed_folder_, view.state.folder);
+  const char* button = "Choose…";
+  const char* explanation =
+      "For recordings and snapshots; empty = the folder in which the viewer was started";
+  named_row("Output folder", explanation, [&] {
+    const ImGuiStyle& style = ImGui::GetStyle();
+    if (view.file_dialog)
+      ImGui::SetNextItemWidth(
+          -(ImGui::CalcTextSize(button).x + 2 * style.FramePadding.x + style.ItemSpacing.x));
+    return ImGui::InputText("##folder", typed_folder_.data(), typed_folder_.size());
+  });
   log_place(view, "output folder");
-  if (!ImGui::IsItemDeactivatedAfterEdit()) return;
-  const std::string typed = typed_folder_.data();
+  if (ImGui::IsItemDeactivatedAfterEdit()) set_folder(view, typed_path(typed_folder_.data()));
+  if (!view.file_dialog) return;
+  ImGui::SameLine();
+  if (ImGui::Button(button))
+    view.file_dialog(
+        {FileDialog::Kind::open_folder, "Folder for recordings and snapshots", folder(view).string(), "", ""},
+        [this, &view](const std::string& path) { set_folder(view, path); });
+  log_place(view, "choose output folder");
+  explain("By the desktop's own dialog");
+}
+
+void SensorPanel::set_folder(ViewContext& view, const std::string& typed) {
   std::error_code code;
   if (!typed.empty() && !std::filesystem::is_directory(typed, code))
-    view.errors.push_back("no such folder: " + typed + (code ? " (" + code.message() + ")" : ""));
+    view.report("no such folder: " + typed + (code ? " (" + code.message() + ")" : ""));
   else if (!typed.empty() && ::access(typed.c_str(), W_OK) != 0)
-    view.errors.push_back("this folder cannot be written: " + typed);
+    view.report("this folder cannot be written: " + typed);
+  else if (const std::filesystem::path whole = typed.empty() ? "" : std::filesystem::absolute(typed, code);
+           code)
+    view.report("cannot use this folder: " + typed + " (" + code.message() + ")");
   else
-    view.state.folder = typed.empty() ? "" : std::filesystem::absolute(typed, code).string();
+    view.state.folder = whole.string();
 }
 
 SensorPanel::~SensorPanel() {
@@ -87,7 +103,7 @@ void SensorPanel::toggle_recording(ViewContext& view) {
     view.notify("Recording to " + file.string() +
                 (view.playback.paused ? "; paused, so no frames come yet" : ""));
   } catch (const Error& error) {
-    view.errors.emplace_back(error.what());
+    view.report(error.what());
   }
 }
 
@@ -121,7 +137,7 @@ void SensorPanel::poll(ViewContext& view) {
   recording_reported_ = true;
   end_recording();  // it may have ended because of an error
   if (view.recording.frames > 0) view.recorded = view.recording.file.string();
-  if (!view.recording.error.empty()) view.errors.push_back(view.recording.error);
+  if (!view.recording.error.empty()) view.report(view.recording.error);
 }
 
 void SensorPanel::snapshot(ViewContext& view) {
@@ -149,7 +165,7 @@ void SensorPanel::poll_snapshot(ViewContext& view) {
     view.notify("Snapshot: " + view.snapshot);
   } catch (const std::exception& error) {
     snapshot_error_ = error.what();
-    view.errors.push_back(snapshot_error_);
+    view.report(snapshot_error_);
   }
 }
 

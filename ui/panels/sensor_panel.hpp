@@ -45,6 +45,7 @@ class SensorPanel {
 
   std::filesystem::path folder(const ViewContext& view) const;
   void edit_folder(ViewContext& view);
+  void set_folder(ViewContext& view, const std::string& typed);
 
   const std::filesystem::path usual_folder_;
   std::array<char, 4096> typed_folder_{};

@@ -135,8 +135,9 @@ Fonts load_fonts(double scale) {
   atlas.Clear();
   const auto size = static_cast<float>(std::round(kFontSize_px * scale));
   const auto large = static_cast<float>(std::round(kLargeFontSize_px * scale));
+  std::error_code code;
   for (const FontFiles& files : kFonts) {
-    if (!std::filesystem::exists(files.regular) || !std::filesystem::exists(files.bold)) continue;
+    if (!std::filesystem::exists(files.regular, code) || !std::filesystem::exists(files.bold, code)) continue;
     atlas.AddFontFromFileTTF(files.regular, size, nullptr, kGlyphs.data());
     return {atlas.AddFontFromFileTTF(files.bold, size, nullptr, kGlyphs.data()),
             atlas.AddFontFromFileTTF(files.bold, large, nullptr, kGlyphs.data())};

@@ -125,7 +125,7 @@ void explain_frame_under_mouse(const ViewContext& view, const Line& line) {
   const auto place = static_cast<std::size_t>(under);
   const bool seen = place < entries.size() && entries[place].seen;
   const std::string saliency =
-      seen ? fmt::format("largest saliency {:.2f}", entries[place].strength) : "not computed yet";
+      seen ? "largest saliency " + saliency_text(entries[place].strength) : "not computed yet";
   const std::string text = fmt::format(
       "frame {}, {}\n\nDrag: move through the recording. Wheel: zoom, with Shift move.\n"
       "Right drag: mark the part to play (keys {}, {}); right click: play all",

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include <fmt/format.h>
 #include <imgui.h>
 
@@ -40,6 +42,36 @@ float width_of(const std::vector<std::string>& names, const ViewContext& view) {
   return width;
 }
 
+// The name of the source, its state, and the running recording, up to `right`; a long name leaves room for
+// the rest.
+void draw_source(ViewContext& view, float right) {
+  const std::string name = view.source.uri.empty() ? "Saccade" : short_name(view.source.uri);
+  const std::string state = source_line(view);
+  const auto s = static_cast<int>(view.recording.seconds);
+  const bool records = view.recording.phase == RecordingStatus::Phase::recording;
+  const std::string recording = records ? fmt::format("Recording {}:{:02}", s / 60, s % 60) : "";
+  const float gap = view.px(10);
+  const auto room = [&] { return right - ImGui::GetCursorScreenPos().x; };
+  float rest = ImGui::CalcTextSize(state.c_str()).x + gap;
+  if (records) rest += ImGui::CalcTextSize(recording.c_str()).x + gap;
+  ImGui::AlignTextToFramePadding();
+  ImGui::PushFont(view.fonts.bold);
+  clipped_text(name, std::max(room() - rest, room() / 3));
+  ImGui::PopFont();
+  explain(view.source.uri);
+  ImGui::SameLine(0, gap);
+  ImGui::PushStyleColor(ImGuiCol_Text, state_colour(view));
+  clipped_text(state, room());
+  ImGui::PopStyleColor();
+  explain(view.source.connection.text);
+  if (!records) return;
+  ImGui::SameLine(0, gap);
+  ImGui::PushStyleColor(ImGuiCol_Text, view.colours->error);
+  clipped_text(recording, room());
+  ImGui::PopStyleColor();
+  explain(view.recording.file.string());
+}
+
 }  // namespace
 
 void draw_top_bar(ViewContext& view) {
@@ -57,27 +89,7 @@ void draw_top_bar(ViewContext& view) {
   const float right =
       width_of(centres, view) + width_of(comparisons, view) + theme_width + help_width + 4 * gap;
   const float name_right = ImGui::GetWindowWidth() - right - ImGui::GetStyle().WindowPadding.x;
-  const ImVec2 corner = ImGui::GetCursorScreenPos();
-  ImGui::PushClipRect(corner, {ImGui::GetWindowPos().x + name_right, corner.y + ImGui::GetFrameHeight()},
-                      true);
-  ImGui::AlignTextToFramePadding();
-  ImGui::PushFont(view.fonts.bold);
-  ImGui::TextUnformatted(view.source.uri.empty() ? "Saccade" : short_name(view.source.uri).c_str());
-  ImGui::PopFont();
-  explain(view.source.uri);
-  ImGui::SameLine(0, view.px(10));
-  ImGui::PushStyleColor(ImGuiCol_Text, state_colour(view));
-  ImGui::TextUnformatted(source_line(view).c_str());
-  ImGui::PopStyleColor();
-  explain(view.source.connection.text);
-  if (view.recording.phase == RecordingStatus::Phase::recording) {
-    const auto s = static_cast<int>(view.recording.seconds);
-    ImGui::SameLine(0, view.px(14));
-    ImGui::TextColored(as_vec4(view.colours->error), "%s",
-                       fmt::format("Recording {}:{:02}", s / 60, s % 60).c_str());
-    explain(view.recording.file.string());
-  }
-  ImGui::PopClipRect();
+  draw_source(view, ImGui::GetWindowPos().x + name_right);
 
   ImGui::SameLine(name_right + gap);
   int centre = static_cast<int>(view.state.centre);
@@ -96,7 +108,7 @@ void draw_top_bar(ViewContext& view) {
   explain(with_key("Switch to the other theme", Action::toggle_theme));
   ImGui::SameLine(0, gap / 2);
   if (ImGui::Button("?")) view.act(Action::show_help);
-  explain(with_key("Keyboard shortcuts", Action::show_help));
+  explain(with_key("Help: keys, mouse, what the colours mean, and a glossary", Action::show_help));
 }
 
 }  // namespace saccade

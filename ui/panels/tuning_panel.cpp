@@ -19,12 +19,23 @@ std::string help_of_model(const std::string& name) {
   return "";
 }
 
+// A row for a setting of words; the values of `Enum` are in their order.
+template <typename Enum>
+void choice_row(ViewContext& view, const char* key, const char* name, const char* explanation, Enum& value) {
+  int chosen = static_cast<int>(value);
+  if (named_row(name, explanation, [&] { return segments(view, key, choices_of(key), chosen); }))
+    value = static_cast<Enum>(chosen);
+}
+
 void draw_kernel(ViewContext& view, Settings& s) {
-  named_row("Kernel", "Side of the operator's window around each pixel, at every pyramid level");
-  if (ImGui::SliderInt("##kernel", &s.kernel, 3, 127, "%d px", ImGuiSliderFlags_AlwaysClamp))
+  const std::string explanation = fmt::format(
+      "Side of the operator's window around each pixel, at every pyramid level. Drag, or Ctrl+click to "
+      "type a size. Keys: {} is smaller, {} is larger",
+      key_name(Action::kernel_down), key_name(Action::kernel_up));
+  if (named_row("Kernel", explanation, [&] {
+        return ImGui::SliderInt("##kernel", &s.kernel, 3, 127, "%d px", ImGuiSliderFlags_AlwaysClamp);
+      }))
     s.kernel = std::clamp(s.kernel | 1, 3, 127);  // the window is odd
-  explain(fmt::format("Drag, or Ctrl+click to type a size. Keys: {} is smaller, {} is larger",
-                      key_name(Action::kernel_down), key_name(Action::kernel_up)));
   log_place(view, "kernel");
 }
 
@@ -33,11 +44,14 @@ void draw_levels(ViewContext& view, Settings& s) {
   const Computed* shown = view.result ? &view.result->a : nullptr;
   int first = s.first_level, last = s.last_level;
   if (!s.levels_chosen && shown != nullptr) last = std::min(last, shown->settings.last_level);
-  named_row("Levels",
-            "The pyramid levels whose maps are added. Level 0 has full size, each further one half the size "
-            "of the one before.");
-  if (ImGui::DragIntRange2("##levels", &first, &last, 0.05F, 0, 8, "from %d", "to %d",
-                           ImGuiSliderFlags_AlwaysClamp)) {
+  const char* explanation =
+      "The pyramid levels whose maps are added. Level 0 has full size, each further one half the size of the "
+      "one "
+      "before. Drag, or Ctrl+click to type.";
+  if (named_row("Levels", explanation, [&] {
+        return ImGui::DragIntRange2("##levels", &first, &last, 0.05F, 0, 8, "from %d", "to %d",
+                                    ImGuiSliderFlags_AlwaysClamp);
+      })) {
     s.first_level = first;
     s.last_level = last;
     s.levels_chosen = true;
@@ -48,55 +62,53 @@ void draw_operator(ViewContext& view, Settings& s) {
   ImGui::BeginDisabled(!needs_depth(s.model));
   draw_kernel(view, s);
   draw_levels(view, s);
-  named_row(
-      "Length scale",
+  choice_row(
+      view, "length-scale", "Length scale",
       "Unit in which the distances of point pairs are weighed. relative: 5 % of the window's width on the "
-      "surface, so that an object gives the same value near and far; millimetre: as in the paper");
-  int scale = static_cast<int>(s.length_scale);
-  if (segments(view, "scale", choices_of("length-scale"), scale))
-    s.length_scale = static_cast<LengthScale>(scale);
-  named_row(
-      "Normalise",
+      "surface, so that an object gives the same value near and far; millimetre: as in the paper",
+      s.length_scale);
+  choice_row(
+      view, "normalisation", "Normalise",
       "Weighs the map of each level before they are added. none: as they are; max: by the largest value; "
-      "itti: maps with few strong peaks count more than maps with many equal ones");
-  int normalisation = static_cast<int>(s.normalisation);
-  if (segments(view, "normalise", choices_of("normalisation"), normalisation))
-    s.normalisation = static_cast<LevelNormalisation>(normalisation);
+      "itti: maps with few strong peaks count more than maps with many equal ones",
+      s.normalisation);
   ImGui::EndDisabled();
 }
 
 void draw_attention(ViewContext& view, Settings& s) {
-  named_row(
-      "Selector",
+  choice_row(
+      view, "selector", "Selector",
       "How fixations are chosen in the map. proto: one for each proto-object, a surface that stands out as "
-      "one thing; wta: the paper's winner-take-all network, with inhibition of return");
-  int selector = static_cast<int>(s.selector);
-  if (segments(view, "selector", choices_of("selector"), selector))
-    s.selector = static_cast<Selector>(selector);
-  named_row("Fixations", "Fixations per frame, at most");
-  ImGui::SliderInt("##fixations", &s.fixations, 1, 30, "%d");
+      "one thing; wta: the paper's winner-take-all network, with inhibition of return",
+      s.selector);
+  named_row("Fixations", "Fixations per frame, at most",
+            [&] { return ImGui::SliderInt("##fixations", &s.fixations, 1, 30, "%d"); });
   s.fixations = std::clamp(s.fixations, 1, 1000);
   if (s.selector == Selector::proto) {
-    named_row("Confidence", "Fixations that are less certain to lie on an object are not shown; 0 shows all");
     auto least = static_cast<float>(s.min_confidence);
     // Rounded as shown: a setting of 0.30000001 would be odd in a file.
-    if (ImGui::SliderFloat("##confidence", &least, 0, 1, "at least %.2f", ImGuiSliderFlags_AlwaysClamp))
+    if (named_row("Confidence",
+                  "Fixations that are less certain to lie on an object are not shown; 0 shows all", [&] {
+                    return ImGui::SliderFloat("##confidence", &least, 0, 1, "at least %.2f",
+                                              ImGuiSliderFlags_AlwaysClamp);
+                  }))
       s.min_confidence = std::round(100 * static_cast<double>(least)) / 100;
     log_place(view, "confidence");
     return;
   }
-  named_row("Focus", "Diameter of the focus of attention: what is inhibited around a fixation, in pixels");
   auto foa = static_cast<float>(s.foa);
-  if (ImGui::SliderFloat("##foa", &foa, 8, 256, "%.0f px"))
+  if (named_row("Focus", "Diameter of the focus of attention: what is inhibited around a fixation, in pixels",
+                [&] { return ImGui::SliderFloat("##foa", &foa, 8, 256, "%.0f px"); }))
     s.foa = std::clamp(static_cast<double>(foa), 1.0, 1000.0);
 }
 
 void draw_seconds(const char* name, const char* explanation, double most, double& seconds) {
-  named_row(name, explanation);
   auto value = static_cast<float>(seconds);
   ImGui::PushID(name);
-  if (ImGui::SliderFloat("##seconds", &value, 0, static_cast<float>(most), "%.1f s",
-                         ImGuiSliderFlags_AlwaysClamp))
+  if (named_row(name, explanation, [&] {
+        return ImGui::SliderFloat("##seconds", &value, 0, static_cast<float>(most), "%.1f s",
+                                  ImGuiSliderFlags_AlwaysClamp);
+      }))
     seconds = std::round(10 * static_cast<double>(value)) / 10;
   ImGui::PopID();
 }
@@ -105,13 +117,11 @@ void draw_seconds(const char* name, const char* explanation, double most, double
 void draw_over_time(ViewContext& view) {
   Settings& s = view.state.settings.a;
   ImGui::BeginDisabled(view.state.edited().selector != Selector::proto);
-  named_row(
-      "Tracking",
+  choice_row(
+      view, "tracking", "Tracking",
       "Attention over time: objects keep their numbers and colours while the camera moves, and a gaze goes "
-      "from one to the next. auto: for sensors, recordings and videos");
-  int tracking = static_cast<int>(s.tracking);
-  if (segments(view, "tracking", choices_of("tracking"), tracking))
-    s.tracking = static_cast<Tracking>(tracking);
+      "from one to the next. auto: for sensors, recordings and videos",
+      s.tracking);
   if (s.tracking != Tracking::off) {
     draw_seconds("Dwell", "How long the gaze rests on one object", 5, s.dwell_s);
     draw_seconds("Return after", "How long after it has left an object the gaze may return to it", 30,
@@ -150,16 +160,19 @@ void draw_buttons(ViewContext& view) {
 void draw_tuning_panel(ViewContext& view) {
   if (view.state.comparing()) {
     int side = view.state.edit_b ? 1 : 0;
-    named_row("Settings of", "The side of the comparison that this panel edits");
-    if (segments(view, "side", {"  A  ", "  B  "}, side)) view.state.edit_b = side == 1;
+    if (named_row("Settings of", "The side of the comparison that this panel edits", [&] {
+          return segments(view, "side", {"  A  ", "  B  "}, side);
+        }))
+      view.state.edit_b = side == 1;
     ImGui::SameLine(0, view.px(10));
     if (ImGui::Button("Swap")) view.act(Action::swap_sides);
     explain(with_key("Swap A and B", Action::swap_sides));
   }
   Settings& s = view.state.edited();
-  named_row("Model", "How the saliency of each pixel is computed");
-  word_combo("##model", choices_of("model"), s.model, help_of_model);
-  explain(with_key(help_of_model(s.model), Action::next_model));
+  named_row(
+      "Model",
+      with_key("How the saliency of each pixel is computed. " + help_of_model(s.model), Action::next_model),
+      [&] { return word_combo("##model", choices_of("model"), s.model, help_of_model); });
   log_place(view, "model");
   draw_operator(view, s);
   draw_attention(view, s);

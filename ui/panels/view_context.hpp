@@ -13,6 +13,7 @@
 #include "ui/panels/probe_drawing.hpp"
 #include "ui/panels/theme.hpp"
 #include "ui/session/device_watch.hpp"
+#include "ui/session/file_portal.hpp"
 #include "ui/session/fixation_lock.hpp"
 #include "ui/session/graphics.hpp"
 #include "ui/session/overlay_shapes.hpp"
@@ -79,7 +80,7 @@ struct ViewContext {
   /// Draws over the picture in the next frame of the window; may be empty.
   std::function<void(ImDrawList&, const PicturePlace&)> over_picture;
 
-  std::vector<std::string> errors;  ///< shown until the user dismisses them; one line each
+  std::vector<std::string> errors;  ///< shown until the user dismisses them; see report()
   std::vector<std::string> notes;   ///< about the source; shown until the user dismisses them
   std::vector<std::string> advice;  ///< why there may be no sensor, one line each; while one is waited for
   std::string notice;               ///< a short message that disappears by itself
@@ -87,6 +88,8 @@ struct ViewContext {
 
   std::function<void(Action)> act;                   ///< performs an action
   std::function<void(const std::string& uri)> open;  ///< opens a source
+  /// Shows a file dialog of the desktop, whose choice `chosen` gets later; null = the desktop has none.
+  std::function<void(FileDialog dialog, std::function<void(const std::string& path)> chosen)> file_dialog;
 
   std::map<std::string, std::array<float, 4>>
       places;  ///< of the controls in the window, for its log: [left, top, right, bottom]
@@ -100,7 +103,10 @@ struct ViewContext {
   }
   /// The point of a pixel in the camera frame, mm; none where there is no reading, or no such pixel.
   std::optional<cv::Point3d> point_at(std::optional<cv::Point> pixel) const;
-  void notify(std::string line);  ///< sets the notice, which stays for some seconds
+  void notify(const std::string& line);  ///< sets the notice, which stays for some seconds
+  /// Adds an error, unless it is the last one already. A long one, of a long path, is shortened in its
+  /// middle.
+  void report(const std::string& error);
   /// The computation under the pointer, or A's.
   const Computed* pointed() const {
     return result == nullptr ? nullptr : pointer_on_b && result->compared ? &result->b : &result->a;

@@ -26,13 +26,16 @@ void draw_welcome(ViewContext& view, ImVec2 low, ImVec2 high) {
       "This is a demo recording: a table with objects. The colours show where the scene is symmetric, which "
       "attracts attention; the numbers are the places that an observer would look at, in this order.");
   if (ImGui::Button("Open a sensor, a file or an example…")) view.act(Action::open_source);
+  explain(with_key("Lists connected sensors, recent sources, examples and folders", Action::open_source));
   log_place(view, "welcome open");
   ImGui::SameLine();
   if (ImGui::Button("Help")) view.act(Action::show_help);
+  explain(with_key("Keys, mouse, what the colours mean, and a glossary", Action::show_help));
   ImGui::Checkbox("Show this at the start", &view.state.welcome);
   explain("This card appears when the viewer is started without a SOURCE");
   ImGui::SameLine();
   if (ImGui::Button("Close")) view.welcome = false;
+  explain("Hides this card; Help has more");
   log_place(view, "welcome close");
   ImGui::End();
   ImGui::PopStyleColor();

@@ -96,6 +96,7 @@ bool icon_button(ViewContext& view, const char* id, Icon icon, bool lit, const s
 bool segments(ViewContext& view, const char* id, const std::vector<std::string>& names, int& chosen) {
   bool changed = false;
   ImGui::PushID(id);
+  ImGui::BeginGroup();
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {view.px(1), ImGui::GetStyle().ItemSpacing.y});
   for (int i = 0; i < static_cast<int>(names.size()); ++i) {
     if (i > 0) ImGui::SameLine();
@@ -112,6 +113,7 @@ bool segments(ViewContext& view, const char* id, const std::vector<std::string>&
     if (on) ImGui::PopStyleColor(2);
   }
   ImGui::PopStyleVar();
+  ImGui::EndGroup();
   ImGui::PopID();
   return changed;
 }
@@ -129,6 +131,30 @@ bool word_combo(const char* id, const std::vector<std::string>& words, std::stri
   }
   ImGui::EndCombo();
   return changed;
+}
+
+void clipped_text(const std::string& text, float width) {
+  const ImVec2 at = ImGui::GetCursorScreenPos(), size = ImGui::CalcTextSize(text.c_str());
+  const float right = at.x + std::max(width, 1.0F),
+              top = at.y + ImGui::GetCurrentWindow()->DC.CurrLineTextBaseOffset;
+  ImGui::RenderTextEllipsis(ImGui::GetWindowDrawList(), {at.x, top}, {right, top + size.y}, right, right,
+                            text.c_str(), nullptr, &size);
+  ImGui::Dummy({std::min(size.x, right - at.x), size.y});
+}
+
+std::string shortened(const std::string& text, std::size_t most) {
+  constexpr std::string_view kDots = "…";
+  if (text.size() <= most) return text;
+  const auto inside = [&](std::size_t i) { return (static_cast<unsigned char>(text[i]) & 0xc0) == 0x80; };
+  const std::size_t half = (most - kDots.size()) / 2;
+  std::size_t head = half, tail = text.size() - half;
+  while (head > 0 && inside(head)) --head;  // not within a character
+  while (tail < text.size() && inside(tail)) ++tail;
+  return text.substr(0, head).append(kDots).append(text.substr(tail));
+}
+
+void set_text(std::span<char> field, const std::string& text) {
+  field[text.copy(field.data(), field.size() - 1)] = '\0';
 }
 
 std::string with_key(const std::string& text, Action action) {

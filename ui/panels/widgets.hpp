@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -29,12 +30,21 @@ void close_top_popup();
 /// The last part of a path; other sources stay as they are.
 [[nodiscard]] std::string short_name(const std::string& uri);
 
-/// A row of exclusive choices; true if `chosen` changed.
+/// A row of exclusive choices, one item to explain(); true if `chosen` changed.
 bool segments(ViewContext& view, const char* id, const std::vector<std::string>& names, int& chosen);
 
 /// A combo box over words; true if `word` changed. `help` gives the tool tip of a word; may be null.
 bool word_combo(const char* id, const std::vector<std::string>& words, std::string& word,
                 std::string (*help)(const std::string& word) = nullptr);
+
+/// A line of text in the present colour, at most `width` pixels wide: a longer one ends with "…".
+void clipped_text(const std::string& text, float width);
+
+/// At most `most` bytes of a UTF-8 text, with "…" in place of its middle if it is longer.
+[[nodiscard]] std::string shortened(const std::string& text, std::size_t most);
+
+/// Sets the text of an input field, cut to its size.
+void set_text(std::span<char> field, const std::string& text);
 
 /// A text for explain() with the keys of an action: "Play (Space)".
 [[nodiscard]] std::string with_key(const std::string& text, Action action);

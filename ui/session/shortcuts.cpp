@@ -48,6 +48,7 @@ constexpr std::array kShortcuts = {
     Shortcut{Action::next_centre, key_of('V'), false, false, kLook, "Picture, point cloud or both"},
 
     Shortcut{Action::open_source, key_of('O'), true, false, kGeneral, "Open a source"},
+    Shortcut{Action::paste_source, key_of('V'), true, false, kGeneral, "Open the path in the clipboard"},
     Shortcut{Action::snapshot, key_of('S'), false, false, kGeneral, "Take a snapshot"},
     Shortcut{Action::record, key_of('R'), false, false, kGeneral, "Start or stop recording"},
     Shortcut{Action::toggle_sidebar, key_of('B'), false, false, kGeneral, "Side bar on or off"},

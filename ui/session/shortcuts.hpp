@@ -14,8 +14,8 @@ enum class Action {
   mark_in, mark_out,
   kernel_down, kernel_up, next_model, previous_model, next_selector, undo, redo, copy_command,
   toggle_map, toggle_marks, toggle_path, toggle_outlines, toggle_background, next_palette, fit_picture,
-  next_comparison, swap_sides, next_centre, toggle_sidebar, toggle_theme, open_source, save_settings,
-  snapshot, record, show_help, quit,
+  next_comparison, swap_sides, next_centre, toggle_sidebar, toggle_theme, open_source, paste_source,
+  save_settings, snapshot, record, show_help, quit,
 };
 // clang-format on
 

@@ -5,6 +5,7 @@
 
 #include "ui/panels/widgets.hpp"
 #include "ui/session/command_line.hpp"
+#include "ui/session/typed_path.hpp"
 #include "ui/window/viewer.hpp"
 
 namespace saccade {
@@ -74,7 +75,7 @@ void Viewer::act(Action action) {
 
 bool Viewer::act_on_playback(Action action) {
   constexpr std::int64_t kJump = 10, kEnd = std::int64_t{1} << 40;
-  PlaybackControls& playback = session_.playback();
+  PlaybackControls& playback = session_->playback();
   const PlaybackState now = playback.state();
   switch (action) {
     case Action::play_pause:
@@ -205,6 +206,9 @@ void Viewer::act_on_window(Action action) {
     case Action::open_source:
       open_dialog_.show();
       break;
+    case Action::paste_source:
+      paste_source();
+      break;
     case Action::snapshot:
       sidebar_.sensors().snapshot(view_);
       break;
@@ -241,6 +245,13 @@ void Viewer::copy_command() {
   if (state_.comparing()) text += "\n" + line(state_.settings.b);
   ImGui::SetClipboardText(text.c_str());
   view_.notify("Copied: " + text);
+}
+
+void Viewer::paste_source() {
+  const char* text = ImGui::GetClipboardText();
+  const std::string source = typed_path(text == nullptr ? "" : text);
+  if (source.empty()) return view_.notify("There is no path in the clipboard");
+  open(source);
 }
 
 }  // namespace saccade

@@ -37,7 +37,7 @@ void Viewer::log_frame(double busy_ms) {
       {"locked", view_.locked},
       {"pinned", view_.pinned ? nlohmann::json{view_.pinned->x, view_.pinned->y} : nlohmann::json()},
       {"places", view_.places}};
-  const SensorValues sensor = session_.sensor_values();
+  const SensorValues sensor = session_->sensor_values();
   if (sensor.mirror) line["mirror"] = *sensor.mirror;
   if (sensor.registration) line["registration"] = *sensor.registration;
   if (view_.result) {

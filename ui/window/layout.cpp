@@ -86,7 +86,10 @@ void Viewer::draw_body(float height) {
 void Viewer::draw_centre() {
   const bool both = state_.centre == Centre::both;
   const ImVec2 corner = ImGui::GetCursorScreenPos(), room = ImGui::GetContentRegionAvail();
-  if (state_.centre == Centre::cloud) view_.pointer.reset();
+  if (state_.centre == Centre::cloud) {
+    view_.pointer.reset();
+    view_.hovered_mark = -1;
+  }
   if (state_.centre != Centre::cloud) {
     ImGui::BeginChild("picture", {both ? room.x / 2 - view_.px(1) : 0, 0}, false,
                       ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse);

@@ -24,32 +24,48 @@ Viewer::Viewer(ViewState state, ViewerOptions options, Session::Open open_functi
                DeviceWatch::List list_sensors, SensorAdvice::Ask ask_advice)
     : state_(std::move(state)),
       options_(std::move(options)),
+      session_(begin_session(std::move(open_function))),
       window_("Saccade", options_.size.value_or(state_.window), !options_.size, state_.ui_scale),
-      session_(
-          std::move(open_function),
-          [this] {
-            woken_ = true;
-            Window::wake();
-          },
-          ComputeRequest{state_.settings.a, {}, {}}),
-      view_(state_, session_, graphics_),
+      view_(state_, *session_, graphics_),
       history_(state_.settings),
       advice_(std::move(ask_advice), [] { Window::wake(); }),
+      portal_([] { Window::wake(); }),
       sidebar_(std::move(list_sensors), [] { Window::wake(); }),
       open_dialog_([] { Window::wake(); }),
-      sent_{state_.settings.a, {}, {}} {
+      sent_{state_.settings.a, {}, {}},
+      sent_sensor_(state_.settings.a.sensor) {
+  set_window(true);
   view_.example = options_.example;
   view_.welcome = options_.welcome && state_.welcome;
-  share_source(state_.settings);
   view_.act = [this](Action action) { act(action); };
   view_.open = [this](const std::string& uri) { open(uri); };
   if (!options_.log.empty()) log_.emplace(options_.log);
   scale_ui();
-  if (options_.paused) session_.playback().pause();
-  if (!options_.source.uri.empty()) {
-    const OpenRequest first = options_.source;
-    open(first.uri);
-  }
+  if (!options_.paused) session_->playback().play();
+}
+
+Viewer::~Viewer() { set_window(false); }
+
+// Opens the first source, which takes about as long as to make the window and goes on meanwhile.
+std::unique_ptr<Session> Viewer::begin_session(Session::Open open_function) {
+  share_source(state_.settings);
+  auto session = std::make_unique<Session>(
+      std::move(open_function), [this] { wake_window(); }, ComputeRequest{state_.settings.a, {}, {}});
+  session->playback().pause();  // at the first frame, until the window is there
+  if (!options_.source.uri.empty()) session->open(request_for(options_.source.uri));
+  return session;
+}
+
+// The session outlives the window.
+void Viewer::set_window(bool there) {
+  const std::lock_guard lock(window_mutex_);
+  window_there_ = there;
+}
+
+void Viewer::wake_window() {
+  woken_ = true;
+  const std::lock_guard lock(window_mutex_);
+  if (window_there_) Window::wake();
 }
 
 void Viewer::run() {
@@ -93,10 +109,10 @@ bool Viewer::awaits_result() const {
 
 // Takes over the session's news; cheap, and done while the window is hidden too.
 void Viewer::poll() {
-  SessionUpdate update = session_.poll();
+  SessionUpdate update = session_->poll();
   view_.source = std::move(update.state);
   view_.result = std::move(update.latest);
-  view_.playback = session_.playback().state();
+  view_.playback = session_->playback().state();
   if (view_.source.opened != opened_) start_with_source();
   for (const FrameRecord& record : update.records) {
     view_.timeline.add(record.index, record.strength, record.generation >= a_since_);
@@ -112,7 +128,7 @@ void Viewer::poll() {
   captured_.count(view_.source.ledger.captured, Clock::now());
   view_.captured_hz = captured_.rate_hz();
   sidebar_.sensors().poll(view_);
-  for (const std::string& path : window_.take_dropped()) open(path);
+  poll_files();
   const bool live = view_.source.source.live && view_.source.phase == SessionState::Phase::open;
   const bool recording = view_.recording.phase != RecordingStatus::Phase::idle;
   refresh_ = live || recording || !view_.notice.empty() || ImGui::GetIO().WantTextInput ||
@@ -152,12 +168,12 @@ void Viewer::start_with_source() {
   cloud_.fit();
   view_.notes = fit_.fit(state_.settings, view_.source.source);
   if (has_stills(view_.source.source) && options_.screenshot.empty()) {
-    paused_for_stills_ |= !session_.playback().state().paused;
-    session_.playback().pause();
+    paused_for_stills_ |= !session_->playback().state().paused;
+    session_->playback().pause();
     if (view_.source.source.frame_count.value_or(2) > 1)
       view_.notify("Stills without times: the arrow keys go from one to the next, Space plays them");
   } else if (std::exchange(paused_for_stills_, false)) {
-    session_.playback().play();
+    session_->playback().play();
   }
 }
 
@@ -177,7 +193,7 @@ void Viewer::poll_errors() {
   }
   if (error.empty()) return;
   if (!options_.screenshot.empty()) throw failed("no screenshot", error, "");
-  view_.errors.push_back(error);
+  view_.report(error);
 }
 
 // While the viewer waits for a sensor, it says why there may be none.
@@ -187,6 +203,29 @@ void Viewer::poll_advice() {
       s.phase == SessionState::Phase::open && s.connection.connection == SourceState::Connection::waiting;
   if (waiting != advice_.active()) waiting ? advice_.ask() : advice_.clear();
   view_.advice = advice_.poll();
+}
+
+// Opens what was dropped onto the window, and passes on what was chosen in a dialog of the desktop.
+void Viewer::poll_files() {
+  if (const std::vector<std::string> dropped = window_.take_dropped(); !dropped.empty()) {
+    open_dialog_.close();
+    if (dropped.size() > 1)
+      view_.notify("Only one source is open at a time: the first of those dropped is opened");
+    open(dropped.front());
+  }
+  if (const std::string error = portal_.poll(); !error.empty()) view_.report(error);
+  if (!portal_.available())
+    view_.file_dialog = nullptr;
+  else if (!view_.file_dialog)
+    view_.file_dialog = [this](FileDialog dialog, auto chosen) {
+      show_file_dialog(std::move(dialog), std::move(chosen));
+    };
+}
+
+void Viewer::show_file_dialog(FileDialog dialog, std::function<void(const std::string&)> chosen) {
+  if (portal_.busy()) return view_.notify("A file dialog of the desktop is open already");
+  dialog.parent = window_.portal_name();
+  portal_.show(dialog, std::move(chosen));
 }
 
 void Viewer::scale_ui() {
@@ -226,7 +265,7 @@ void Viewer::send_compute_request() {
   if (state_.comparing()) request.b = state_.settings.b;
   if (request == sent_) return;
   const bool a_changed = !same_settings(request.a, sent_.a);
-  generation_ = session_.set_compute_request(request);
+  generation_ = session_->set_compute_request(request);
   sent_ = std::move(request);
   if (!a_changed) return;
   a_since_ = generation_;
@@ -239,16 +278,20 @@ void Viewer::follow_sensor() {
   const SensorSettings& wanted = state_.settings.a.sensor;
   if (wanted.mode != sent_sensor_.mode) return open(view_.source.uri);
   const SensorValues request = changed_values(sent_sensor_, wanted);
-  if (request != SensorValues{}) session_.request_sensor(request);
+  if (request != SensorValues{}) session_->request_sensor(request);
   sent_sensor_ = wanted;
 }
 
-void Viewer::open(const std::string& uri) {
+OpenRequest Viewer::request_for(const std::string& uri) const {
   OpenRequest request{uri, {}, state_.settings.a.sensor};
-  sent_sensor_ = request.sensor;
   if (uri == options_.source.uri) request.range = options_.source.range;
   if (options_.screenshot.empty()) request.sensor.wait_s = kPatience_s;
-  session_.open(request);
+  return request;
+}
+
+void Viewer::open(const std::string& uri) {
+  sent_sensor_ = state_.settings.a.sensor;
+  session_->open(request_for(uri));
   frames_due_ = kFramesAfterEvent;
 }
 

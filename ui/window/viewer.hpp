@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstdint>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 
@@ -14,6 +15,7 @@
 #include "ui/panels/panels.hpp"
 #include "ui/panels/settings_dialog.hpp"
 #include "ui/panels/view_context.hpp"
+#include "ui/session/file_portal.hpp"
 #include "ui/session/rate_meter.hpp"
 #include "ui/session/sensor_advice.hpp"
 #include "ui/session/settings_history.hpp"
@@ -39,6 +41,9 @@ class Viewer {
   /// Starts with a saved `state`. Throws Error (failed) where there is no display or no OpenGL 3.3.
   Viewer(ViewState state, ViewerOptions options, Session::Open open, DeviceWatch::List list_sensors,
          SensorAdvice::Ask ask_advice);
+  ~Viewer();
+  Viewer(const Viewer&) = delete;
+  Viewer& operator=(const Viewer&) = delete;
 
   /// Runs until the window is closed or the screenshot is written. Throws Error (failed) if that is
   /// impossible.
@@ -51,12 +56,17 @@ class Viewer {
   [[nodiscard]] const ViewState& state() const { return state_; }
 
  private:
+  std::unique_ptr<Session> begin_session(Session::Open open_function);
+  void set_window(bool there);
+  void wake_window();
+  OpenRequest request_for(const std::string& uri) const;
   bool awaits_result() const;
   void poll();
   void start_with_source();
   void follow_lock();
   void poll_errors();
   void poll_advice();
+  void poll_files();
   void draw_frame();
   void draw_window();
   void draw_splitter(float height);
@@ -72,6 +82,8 @@ class Viewer {
   bool act_on_picture(Action action);
   void act_on_window(Action action);
   void copy_command();
+  void paste_source();
+  void show_file_dialog(FileDialog dialog, std::function<void(const std::string&)> chosen);
   void send_compute_request();
   void follow_sensor();
   void open(const std::string& uri);
@@ -82,13 +94,16 @@ class Viewer {
   ViewState state_;
   ViewerOptions options_;
   std::atomic<bool> woken_ = true, stopped_ = false;
+  std::mutex window_mutex_;
+  bool window_there_ = false;  // guarded by window_mutex_
+  const std::unique_ptr<Session> session_;
   Window window_;
   GlGraphics graphics_;
-  Session session_;
   ViewContext view_;
   SettingsHistory history_;
   SourceFit fit_;
   SensorAdvice advice_;
+  FilePortal portal_;
   PicturePanel picture_;
   CloudPanel cloud_;
   Sidebar sidebar_;

@@ -1,5 +1,7 @@
 #include "ui/window/window.hpp"
 
+#include <dlfcn.h>
+
 #include <backends/imgui_impl_glfw.h>
 #include <backends/imgui_impl_opengl3.h>
 #include <imgui.h>
@@ -11,6 +13,8 @@
 #include <cctype>
 #include <optional>
 #include <utility>
+
+#include <fmt/format.h>
 
 #include "core/error.hpp"
 
@@ -208,6 +212,13 @@ cv::Size Window::size() const {
   cv::Size size;
   glfwGetWindowSize(window_, &size.width, &size.height);
   return size;
+}
+
+// GLFW for Wayland lacks the function, so it is not linked.
+std::string Window::portal_name() const {
+  const auto id = reinterpret_cast<unsigned long (*)(GLFWwindow*)>(::dlsym(RTLD_DEFAULT, "glfwGetX11Window"));
+  const unsigned long window = id == nullptr ? 0 : id(window_);
+  return window == 0 ? "" : fmt::format("x11:{:x}", window);
 }
 
 void Window::set_title(const std::string& title) { glfwSetWindowTitle(window_, title.c_str()); }

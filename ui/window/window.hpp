@@ -50,6 +50,8 @@ class Window {
   double screen_scale() const;  ///< 1 = usual density, 2 = twice
   cv::Size size() const;        ///< in the units of ImGui
   void set_title(const std::string& title);
+  /// As the desktop's portal names windows: "x11:2a"; empty where the desktop is not X11.
+  std::string portal_name() const;
 
   /// Files and folders dropped onto the window since the last call.
   [[nodiscard]] std::vector<std::string> take_dropped();

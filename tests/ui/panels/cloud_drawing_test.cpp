@@ -88,6 +88,36 @@ TEST_F(CloudDrawingTest, FixationsAreMarkedWhereTheyAre) {
   EXPECT_FALSE(test::ImGuiFrames::box_of(IM_COL32(80, 255, 80, 255), low, high));
 }
 
+TEST_F(CloudDrawingTest, AClickFindsTheMarkOrThePixelUnderIt) {
+  draw();
+  draw();
+  const auto click_at = [&](ImVec2 at) {
+    ImGuiIO& io = ImGui::GetIO();
+    io.MousePos = at;
+    draw();
+    io.MouseDown[0] = true;
+    draw();
+    io.MouseDown[0] = false;
+    draw();
+  };
+  ImVec2 low, high;
+  ASSERT_TRUE(test::ImGuiFrames::box_of(IM_COL32(80, 255, 80, 255), low, high));
+  const ImVec2 mark{low.x + 10, (low.y + high.y) / 2};
+  click_at(mark);
+  EXPECT_TRUE(state_.clicked);
+  EXPECT_EQ(state_.hovered_mark, 0);
+  EXPECT_FALSE(state_.clicked_pixel);
+  click_at({mark.x - 100, mark.y + 50});
+  ASSERT_TRUE(state_.clicked_pixel);
+  EXPECT_EQ(state_.hovered_mark, -1);
+  const auto at = state_.camera.project(
+      frame_.intrinsics.point_mm(state_.clicked_pixel->y, state_.clicked_pixel->x, 1000), size_);
+  EXPECT_NEAR(at->x, mark.x - 100 - 8, 6);
+  EXPECT_NEAR(at->y, mark.y + 50 - static_cast<float>(520 - 8 - size_.height), 6);
+  drag(ImGuiMouseButton_Left, {300, 300}, {330, 300});
+  EXPECT_FALSE(state_.clicked) << "that was a drag";
+}
+
 TEST_F(CloudDrawingTest, AMarkerBehindASurfaceIsFaint) {
   frame_.depth_mm = 500;  // the fixation is at 1000 mm
   draw();

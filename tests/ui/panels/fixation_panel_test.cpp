@@ -51,6 +51,32 @@ TEST_F(FixationPanelTest, FitsIntoTheSideBarAndSaysWhenThereIsNothing) {
   EXPECT_TRUE(ImGuiFrames::box_of(ImGui::GetColorU32(tone_colour(Tone::quiet)), low, high));
 }
 
+TEST(SaliencyText, HasTheSameDigitsEverywhere) {
+  EXPECT_EQ(saliency_text(1.3496F), "1.35");
+  EXPECT_EQ(saliency_text(0.0102F), "0.01");
+  EXPECT_EQ(saliency_text(0.0019F), "0.002");
+  EXPECT_EQ(saliency_text(3.5e-8F), "0");
+  EXPECT_EQ(saliency_text(0), "0");
+}
+
+TEST_F(FixationPanelTest, OverTimeItSaysHowOftenAnObjectWasLookedAt) {
+  auto result = std::make_shared<ViewResult>(*view_.result);
+  Computed& a = result->a;
+  for (Fixation& fixation : a.result.attention.fixations) fixation.position_mm = {-999, -999, 8000};
+  a.result.attention.sequence.emplace();
+  a.marks.emplace();
+  a.marks->marks = {{{}, false, 1, 1}, {{}, true, 12, 100}};
+  view_.result = result;
+  expect_fits(draw_);
+  const ImGuiTable* table = ImGui::TableFindByID(ImGui::FindWindowByName("panel")->GetID("objects"));
+  ASSERT_NE(table, nullptr);
+  ASSERT_EQ(table->ColumnsCount, 8);
+  for (int i = 0; i < 8; ++i) {
+    const ImGuiTableColumn& column = table->Columns[i];
+    EXPECT_LE(column.ContentMaxXUnfrozen, column.ClipRect.Max.x + 1) << "column " << i << " is cut off";
+  }
+}
+
 TEST(ObjectText, SaysWhatIsKnown) {
   Computed computed;
   computed.result.attention.fixations.resize(2);
@@ -78,9 +104,13 @@ TEST(FixationText, HasALineForEach) {
   fixation.confidence = 0.875F;
   fixation.position_mm = {1, -2, 1000};
   fixation.proto_object.extent_mm = {10, 30, 20};
-  EXPECT_EQ(fixation_text({fixation}),
-            "rank\tid\trow\tcol\tx_mm\ty_mm\tz_mm\tsize_mm\tsaliency\tconfidence\n"
-            "1\t7\t3\t4\t1.0\t-2.0\t1000.0\t30.0\t0.5\t0.875\n");
+  Computed computed;
+  computed.result.attention.fixations = {fixation};
+  const std::string heading = "rank\tid\trow\tcol\tx_mm\ty_mm\tz_mm\tsize_mm\tsaliency\tconfidence\tlooks\n";
+  EXPECT_EQ(fixation_text(computed), heading + "1\t7\t3\t4\t1.0\t-2.0\t1000.0\t30.0\t0.5\t0.875\t\n");
+  computed.marks.emplace();
+  computed.marks->marks = {{{}, true, 2, 3.25}};
+  EXPECT_EQ(fixation_text(computed), heading + "1\t7\t3\t4\t1.0\t-2.0\t1000.0\t30.0\t0.5\t0.875\t2\n");
 }
 
 }  // namespace

@@ -173,6 +173,52 @@ TEST_F(WideTest, AnErrorStaysUntilItIsDismissed) {
   EXPECT_TRUE(view_.notes.empty());
 }
 
+TEST_F(WideTest, OfManyErrorsOnlyTheNewestHaveRoom) {
+  for (int i = 0; i < 7; ++i) view_.report(std::string(3, static_cast<char>('a' + i)));
+  view_.report("ggg");
+  EXPECT_EQ(view_.errors.size(), 7u) << "the last one is there already";
+  view_.report("cannot read: /" + std::string(3000, 'x') + ".oni (check the path)");
+  EXPECT_LE(view_.errors.back().size(), 400u);
+  EXPECT_TRUE(view_.errors.back().starts_with("cannot read: /x") &&
+              view_.errors.back().ends_with("x.oni (check the path)"));
+  const Draw draw = [this] { draw_messages(view_); };
+  expect_fits(draw);
+  ImVec2 low, high;
+  ASSERT_TRUE(ImGuiFrames::box_of(view_.colours->error, low, high));
+  EXPECT_LT(high.y, 200);
+  click("dismiss all errors", draw);
+  EXPECT_TRUE(view_.errors.empty());
+}
+
+TEST_F(WideTest, ALongTextIsShortenedBetweenCharacters) {
+  EXPECT_EQ(shortened("abcdefghij", 10), "abcdefghij");
+  EXPECT_EQ(shortened("abcdefghijk", 9), "abc…ijk");
+  EXPECT_EQ(shortened("äöüäöüäöü", 13), "äö…öü");
+}
+
+TEST_F(WideTest, WhereTheDesktopHasFileDialogsTheyAreOffered) {
+  std::vector<FileDialog> shown;
+  std::function<void(const std::string&)> choose;
+  OpenDialog dialog([] {});
+  const Draw draw = [&] { dialog.draw(view_); };
+  dialog.show();
+  settled(draw);
+  EXPECT_FALSE(view_.places.contains("choose a file"));
+  view_.file_dialog = [&](const FileDialog& asked, auto chosen) {
+    shown.push_back(asked);
+    choose = std::move(chosen);
+  };
+  click("choose a file", draw);
+  click("choose a folder", draw);
+  ASSERT_EQ(shown.size(), 2u);
+  EXPECT_EQ(shown[0].kind, FileDialog::Kind::open_file);
+  EXPECT_EQ(shown[1].kind, FileDialog::Kind::open_folder);
+  choose("/data/tum");
+  EXPECT_EQ(opened_, "/data/tum");
+  settled(draw);
+  EXPECT_EQ(ImGui::GetCurrentContext()->OpenPopupStack.Size, 0) << "it closes";
+}
+
 TEST_F(WideTest, ARecordingAndANewSensorAreOffered) {
   view_.recorded = "/tmp/a.oni";
   view_.connected = {{"Xtion", "openni2:1", ""}};

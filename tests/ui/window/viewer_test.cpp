@@ -13,6 +13,7 @@
 #include "output/overlay.hpp"
 #include "sources/oni_source.hpp"
 #include "tests/support/places.hpp"
+#include "tests/ui/support/fake_desktop.hpp"
 #include "x_desktop.hpp"
 #include "x_program.hpp"
 
@@ -279,6 +280,34 @@ TEST_F(ViewerTest, AFileThatIsDroppedIsOpened) {
   start({"synthetic:sphere", "--paused"});
   EXPECT_TRUE(XDesktop(display(), "saccade").drop(kTable));
   EXPECT_TRUE(until([](const Json& j) { return j["source"] == kTable && j.contains("shown"); }));
+}
+
+TEST_F(ViewerTest, APathInTheClipboardIsOpened) {
+  start({"synthetic:sphere", "--paused"});
+  XDesktop desktop(display(), "saccade");
+  desktop.copy("file://" + kTable + "\n");
+  xdotool("key ctrl+v");
+  EXPECT_TRUE(desktop.paste());
+  EXPECT_TRUE(until([](const Json& j) { return j["source"] == kTable && j.contains("shown"); }));
+}
+
+TEST_F(ViewerTest, TheDesktopsFileDialogOpensASource) {
+  if (!is_installed("dbus-daemon")) GTEST_SKIP() << "dbus-daemon is not installed";
+  FakeDesktop desktop;
+  ASSERT_TRUE(desktop.start(folder_));
+  desktop.answer(FakeDesktop::End::chosen, "file://" + kTable);
+  ::setenv("DBUS_SESSION_BUS_ADDRESS", desktop.address().c_str(), 1);
+  start({"synthetic:sphere", "--paused"});
+  xdotool("key ctrl+o");
+  ASSERT_TRUE(until([](const Json& j) { return j["places"].contains("choose a file"); }));
+  click("choose a file", 0.5);
+  EXPECT_TRUE(until([](const Json& j) { return j["source"] == kTable && j.contains("shown"); }));
+  const auto shown = desktop.shown();
+  ASSERT_EQ(shown.size(), 1u);
+  EXPECT_EQ(shown[0].parent.substr(0, 4), "x11:");
+  EXPECT_EQ(shown[0].folder, std::filesystem::canonical(folder_).string());
+  xdotool("key space");
+  EXPECT_TRUE(until([](const Json& j) { return j["paused"] == false; })) << "the own dialog is closed";
 }
 
 TEST_F(ViewerTest, MinimisedItComputesButDoesNotDraw) {

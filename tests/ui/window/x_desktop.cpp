@@ -39,6 +39,8 @@ struct XDesktop::Client {
   void send(const char* message, long word_1, long word_2, long word_3, long word_4) const;
   void give(const XSelectionRequestEvent& request, const std::string& text) const;
   bool wait_for(const char* message, const std::string& text, XClientMessageEvent& answer) const;
+  bool next_event(XEvent& event) const;
+  std::string copied;
 
   explicit Client(const std::string& name) : display(XOpenDisplay(name.c_str())) {
     if (display == nullptr) throw std::runtime_error("no display " + name);
@@ -88,17 +90,37 @@ void XDesktop::Client::give(const XSelectionRequestEvent& request, const std::st
 bool XDesktop::Client::wait_for(const char* message, const std::string& text,
                                 XClientMessageEvent& answer) const {
   const Atom awaited = atom(message);
+  for (XEvent event; next_event(event);) {
+    if (event.type == SelectionRequest) give(event.xselectionrequest, text);
+    if (event.type != ClientMessage || event.xclient.message_type != awaited) continue;
+    answer = event.xclient;
+    return true;
+  }
+  return false;
+}
+
+// False if none comes within a minute.
+bool XDesktop::Client::next_event(XEvent& event) const {
   const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(1);
-  while (std::chrono::steady_clock::now() < end) {
-    while (XPending(display) > 0) {
-      XEvent event;
-      XNextEvent(display, &event);
-      if (event.type == SelectionRequest) give(event.xselectionrequest, text);
-      if (event.type != ClientMessage || event.xclient.message_type != awaited) continue;
-      answer = event.xclient;
-      return true;
-    }
+  while (XPending(display) == 0) {
+    if (std::chrono::steady_clock::now() > end) return false;
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  XNextEvent(display, &event);
+  return true;
+}
+
+void XDesktop::copy(const std::string& text) {
+  client_->copied = text;
+  XSetSelectionOwner(client_->display, client_->atom("CLIPBOARD"), client_->own, CurrentTime);
+  XSync(client_->display, False);
+}
+
+bool XDesktop::paste() {
+  for (XEvent event; client_->next_event(event);) {
+    if (event.type != SelectionRequest) continue;
+    client_->give(event.xselectionrequest, client_->copied);
+    return true;
   }
   return false;
 }

@@ -7,7 +7,7 @@
 namespace saccade {
 
 /// Stands in for the desktop, on a display without one: drops files onto a window like a file manager (XDND
-/// 5), and minimises and restores it like a window manager.
+/// 5), has a clipboard like another program, and minimises and restores the window like a window manager.
 class XDesktop {
  public:
   /// For the first window of the class on the display. Throws std::runtime_error if there is none.
@@ -18,6 +18,11 @@ class XDesktop {
 
   /// Returns whether the window accepted the file; false too if it does not answer within a minute.
   bool drop(const std::filesystem::path& file);
+
+  /// Puts a text into the clipboard.
+  void copy(const std::string& text);
+  /// Hands the clipboard to the window that asks for it; false if none does within a minute.
+  bool paste();
 
   void minimise() { set_minimised(true); }
   void restore() { set_minimised(false); }
