@@ -7,7 +7,9 @@
 #include <fmt/format.h>
 #include <opencv2/imgproc.hpp>
 
+#include "core/depth_units.hpp"
 #include "core/error.hpp"
+#include "core/fit_colour.hpp"
 #include "core/text.hpp"
 #include "drivers/openni2/openni2_modes.hpp"
 
@@ -226,8 +228,8 @@ Outcome OpenNi2Device::read_depth(cv::Mat1f& depth_mm, std::int64_t& time_us) {
   if (format != openni::PIXEL_FORMAT_DEPTH_1_MM && format != openni::PIXEL_FORMAT_DEPTH_100_UM)
     return Outcome::failure("it is not depth in mm or 100 um");
   if (Outcome outcome = check_memory(frame, size_, 2); !outcome) return outcome;
-  as_image(frame, CV_16UC1)
-      .convertTo(depth_mm, CV_32F, format == openni::PIXEL_FORMAT_DEPTH_1_MM ? 1.0 : 0.1);
+  depth_from_units(as_image(frame, CV_16UC1), format == openni::PIXEL_FORMAT_DEPTH_1_MM ? 1.0 : 0.1,
+                   depth_mm);
   return Outcome::success();
 }
 
@@ -243,7 +245,7 @@ Outcome OpenNi2Device::read_colour(cv::Mat3b& colour, std::int64_t& time_us) {
     cv::cvtColor(as_image(frame, CV_8UC3), colour, cv::COLOR_RGB2BGR);
     return Outcome::success();
   }
-  cv::resize(as_image(frame, CV_8UC3), colour, size_, 0, 0, cv::INTER_AREA);
+  fit_colour(as_image(frame, CV_8UC3), size_, colour);
   cv::cvtColor(colour, colour, cv::COLOR_RGB2BGR);
   return Outcome::success();
 }

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <opencv2/imgproc.hpp>
 
+#include "core/depth_units.hpp"
 #include "oni/bytes.hpp"
 #include "oni/codec_im8z.hpp"
 
@@ -141,23 +142,15 @@ Outcome OniImageDecoder::decode_colour(OniCodec codec, const OniFormat& format,
 
 void depth_to_mm(const cv::Mat1w& stored, OniPixelFormat format,
                  std::optional<std::span<const std::uint8_t>> shift_to_depth_mm, cv::Mat1f& depth_mm) {
-  depth_mm.create(stored.size());
-  const bool shifts = format == OniPixelFormat::shift_9_2 || format == OniPixelFormat::shift_9_3;
+  if (format != OniPixelFormat::shift_9_2 && format != OniPixelFormat::shift_9_3)
+    return depth_from_units(stored, format == OniPixelFormat::depth_100um ? 0.1 : 1, depth_mm);
   const auto table = shift_to_depth_mm.value_or(std::span<const std::uint8_t>());
-  for (int row = 0; row < stored.rows; ++row) {
-    const std::uint16_t* in = stored[row];
-    float* out = depth_mm[row];
-    if (shifts) {
-      for (int col = 0; col < stored.cols; ++col) {
-        const std::size_t at = std::size_t{2} * in[col];
-        out[col] = at + 2 <= table.size() ? static_cast<float>(load_le<std::uint16_t>(&table[at])) : 0.0f;
-      }
-    } else if (format == OniPixelFormat::depth_100um) {
-      for (int col = 0; col < stored.cols; ++col) out[col] = static_cast<float>(in[col]) / 10.0f;
-    } else {
-      for (int col = 0; col < stored.cols; ++col) out[col] = static_cast<float>(in[col]);
-    }
-  }
+  cv::Mat1w entries(stored.size());
+  std::transform(stored.begin(), stored.end(), entries.begin(), [&](std::uint16_t shift) -> std::uint16_t {
+    const std::size_t at = std::size_t{2} * shift;
+    return at + 2 <= table.size() ? load_le<std::uint16_t>(&table[at]) : std::uint16_t{0};
+  });
+  depth_from_units(entries, 1, depth_mm);
 }
 
 }  // namespace saccade

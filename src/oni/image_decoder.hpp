@@ -46,9 +46,10 @@ class OniImageDecoder {
   cv::Mat3b part_;
 };
 
-/// Converts stored numbers to depth in mm, rows x cols as `stored`, 0 = no reading. `shift_to_depth_mm` is
-/// the value of the property S2D (u16 in mm for each raw shift) and applies to the shift formats only; a
-/// shift outside the table, or without a table, is no reading.
+/// Converts stored numbers to depth in mm, rows x cols as `stored`, 0 = no reading, which 65535 becomes too,
+/// as in every 16-bit depth image. `shift_to_depth_mm` is the value of the property S2D (u16 in mm for each
+/// raw shift) and applies to the shift formats only; a shift outside the table, or without a table, is no
+/// reading.
 void depth_to_mm(const cv::Mat1w& stored, OniPixelFormat format,
                  std::optional<std::span<const std::uint8_t>> shift_to_depth_mm, cv::Mat1f& depth_mm);
 

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <opencv2/imgproc.hpp>
 
+#include "core/depth_units.hpp"
 #include "core/error.hpp"
 #include "core/text.hpp"
 #include "core/version.hpp"
@@ -20,8 +21,8 @@ namespace {
 using namespace oni_property;
 
 constexpr std::uint32_t kDepthNode = 1, kColourNode = 2;
-constexpr int kMaxStored = 65535;
-constexpr float kFineReach_mm = 6553.5f;
+constexpr int kMaxStored = 65535;  // that the file declares; readings reach kLargestStoredDepth
+constexpr float kFineReach_mm = kLargestStoredDepth / 10.0f;
 
 OniCodec codec_of(OniDepthCodec codec) {
   switch (codec) {
@@ -148,7 +149,7 @@ void OniWriter::store_depth(const cv::Mat1f& depth_mm) {
   std::size_t i = 0;
   for (const float depth : depth_mm) {
     const float steps = depth * steps_per_mm;
-    const bool in_range = steps > 0 && steps < static_cast<float>(kMaxStored) + 0.5f;
+    const bool in_range = steps > 0 && steps < static_cast<float>(kLargestStoredDepth) + 0.5f;
     if (steps > 0 && !in_range) ++counts_.out_of_range_pixels;
     const int stored = in_range ? static_cast<int>(steps + 0.5f) : 0;
     stored_[i++] = static_cast<std::uint16_t>(stored);

@@ -47,8 +47,8 @@ struct OniWriterCounts {
 /// at most the frame being written, and a full disk leaves a closed file of all frames before. A power
 /// failure takes only frames after the last sync().
 ///
-/// Depth in multiples of the unit is stored bit for bit: integer millimetres up to 65535 in a 1 mm file,
-/// tenths up to 6553.5 mm in a 0.1 mm file. Other depth (a synthetic scene without a sensor's quantisation)
+/// Depth in multiples of the unit is stored bit for bit: integer millimetres up to 65534 in a 1 mm file,
+/// tenths up to 6553.4 mm in a 0.1 mm file. Other depth (a synthetic scene without a sensor's quantisation)
 /// is rounded to the unit; such frames are counted and noted in the file. Times are relative to the first
 /// frame, with one origin for depth and colour. Camera, drops and rounding are stored as properties that
 /// other players skip. Thread safety: one call at a time per object.

@@ -1,5 +1,6 @@
 #include "output/dataset_writer.hpp"
 
+#include <limits>
 #include <utility>
 
 #include <fmt/format.h>
@@ -12,13 +13,13 @@ namespace saccade {
 namespace fs = std::filesystem;
 namespace {
 
-// Camera to world, 4 x 4 row by row, metres.
-std::string pose_line(const cv::Affine3d& pose) {
+// Camera to world, 4 x 4 row by row, metres; NaN for a camera that is lost.
+std::string pose_line(const std::optional<cv::Affine3d>& pose) {
   constexpr double kMmPerMetre = 1000;
   std::string line;
   for (int row = 0; row < 4; ++row)
     for (int col = 0; col < 4; ++col) {
-      const double value = pose.matrix(row, col);
+      const double value = pose ? pose->matrix(row, col) : std::numeric_limits<double>::quiet_NaN();
       line += fmt::format("{}{:.17g}", line.empty() ? "" : " ",
                           row < 3 && col == 3 ? value / kMmPerMetre : value);
     }
@@ -62,10 +63,19 @@ void DatasetWriter::add(const Frame& frame) {
     unit_mm_ = info_.depth_unit_mm > 0 ? info_.depth_unit_mm : unit_for(frame.depth_mm);
     write_meta(folder_, info_, frame, unit_mm_);
     times_.emplace(folder_ / "times.txt");
-    if (frame.truth.camera_to_world) poses_.emplace(folder_ / "poses.txt");
   }
   times_->add(frame);
-  if (poses_) poses_->append(pose_line(frame.truth.camera_to_world.value_or(cv::Affine3d::Identity())));
+  add_pose(frame.truth.camera_to_world);
+}
+
+// A row for each frame, from the first that has a pose on.
+void DatasetWriter::add_pose(const std::optional<cv::Affine3d>& pose) {
+  if (pose && !poses_) {
+    poses_.emplace(folder_ / "poses.txt");
+    for (std::int64_t i = 0; i < added_; ++i) poses_->append(pose_line(std::nullopt));
+  }
+  if (poses_) poses_->append(pose_line(pose));
+  ++added_;
 }
 
 void DatasetWriter::write_depth(const Frame& frame) {

@@ -36,7 +36,7 @@ class TimesWriter {
 
 /// Writes frames as a folder of numbered images that is a source again, equal to the bit and with the times
 /// of the frames: NNNNNN_depth.png (16 bits), NNNNNN_rgb.png, NNNNNN_label.png, NNNNNN_class.png, meta.json,
-/// times.txt, and poses.txt if the first frame has a pose. Depth is stored in the source's unit; without
+/// times.txt, and poses.txt if a frame has a pose. Depth is stored in the source's unit; without
 /// one, in that of unit_for(), and depth that is no multiple is rounded. All functions throw Error (failed).
 class DatasetWriter {
  public:
@@ -59,11 +59,14 @@ class DatasetWriter {
   DepthLosses losses() const;
 
  private:
+  void add_pose(const std::optional<cv::Affine3d>& pose);
+
   std::filesystem::path folder_;
   SourceInfo info_;
   double unit_mm_ = 0;  // 0 = no frame has been added
   std::optional<TimesWriter> times_;
   std::optional<LineFile> poses_;
+  std::int64_t added_ = 0;  // frames
   mutable std::mutex mutex_;
   DepthLosses losses_;  // guarded by mutex_
 };

@@ -58,17 +58,21 @@ void TumWriter::begin(const Frame& frame) {
   write_meta(folder_, info_, frame, unit_mm_);
   depth_list_.emplace(folder_ / "depth.txt");
   depth_list_->append("# timestamp filename");
-  if (!frame.truth.camera_to_world) return;
-  poses_.emplace(folder_ / "groundtruth.txt");
-  poses_->append("# timestamp tx ty tz qx qy qz qw");
+}
+
+void TumWriter::add_pose(const std::string& time, const cv::Affine3d& pose) {
+  if (!poses_) {
+    poses_.emplace(folder_ / "groundtruth.txt");
+    poses_->append("# timestamp tx ty tz qx qy qz qw");
+  }
+  poses_->append(time + " " + pose_text(pose));
 }
 
 void TumWriter::add(const Frame& frame) {
   if (unit_mm_ == 0) begin(frame);
   const std::string time = seconds(frame.timestamp_us);
   depth_list_->append(time + " " + image_name("depth", frame));
-  if (poses_ && frame.truth.camera_to_world)
-    poses_->append(time + " " + pose_text(*frame.truth.camera_to_world));
+  if (frame.truth.camera_to_world) add_pose(time, *frame.truth.camera_to_world);
   if (frame.colour.empty()) return;
   if (!colour_list_) {
     make_folder(folder_ / "rgb");

@@ -9,7 +9,7 @@
 namespace saccade {
 
 /// Frames as a sequence of TUM RGB-D: depth/NNNNNN.png and rgb/NNNNNN.png, their lists depth.txt and rgb.txt
-/// with the times in seconds, groundtruth.txt if the first frame has a pose, and meta.json. Depth is in the
+/// with the times in seconds, groundtruth.txt if a frame has a pose, and meta.json. Depth is in the
 /// unit of that format, 1/5 mm, if it holds the depth of the first frame exactly, else in the source's.
 class TumWriter final : public FrameExporter {
  public:
@@ -22,6 +22,7 @@ class TumWriter final : public FrameExporter {
 
  private:
   void begin(const Frame& frame);
+  void add_pose(const std::string& time, const cv::Affine3d& pose);
 
   std::filesystem::path folder_;
   SourceInfo info_;

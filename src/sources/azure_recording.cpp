@@ -12,10 +12,8 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
-#include "sources/video_file.hpp"
 
 namespace saccade {
-namespace fs = std::filesystem;
 namespace {
 
 using Json = nlohmann::json;
@@ -110,41 +108,36 @@ AzureCalibration::AzureCalibration(std::string_view json, cv::Size depth_size, c
   throw std::runtime_error("not the JSON of a calibration");
 }
 
-std::optional<AzureRecording> read_azure_recording(const fs::path& path) {
-  const auto titles = VideoFile(path).titles();
+std::optional<AzureRecording> read_azure_recording(VideoFile& file) {
+  const auto titles = file.titles();
   const auto has = [&](const char* title) { return std::ranges::count(titles, title) > 0; };
   if (!has(kAzureDepth)) {
     if (!has(kInfrared)) return std::nullopt;
-    throw unreadable("this recording has infrared, but no depth", path.string(),
+    throw unreadable("this recording has infrared, but no depth", file.path().string(),
                      "record it in another mode of the depth camera than PASSIVE_IR");
   }
-  const VideoFile depth(path, kAzureDepth);
+  file.choose(kAzureDepth);
   AzureRecording result;
-  result.has_colour = has(kAzureColour);
   cv::Size colour_size(4, 3);  // without colour, any
-  if (result.has_colour) try {
-      const VideoFile colour(path, kAzureColour);
-      colour_size = colour.size();
-      result.colour_delay_us = colour.start_us() - depth.start_us();
+  if (has(kAzureColour)) try {
+      result.colour = std::make_unique<VideoFile>(file.path(), kAzureColour);
+      colour_size = result.colour->size();
+      result.colour_delay_us = result.colour->start_us() - file.start_us();
     } catch (const Error& error) {
-      result.has_colour = false;
       result.notes.push_back(fmt::format("no colour: {}", error.what()));
     }
   try {
-    const auto json = depth.attachment("calibration.json");
+    const auto json = file.attachment("calibration.json");
     if (!json) throw std::runtime_error("it is not in the file");
-    const AzureCalibration calibration(*json, depth.size(), colour_size);
+    const AzureCalibration calibration(*json, file.size(), colour_size);
     result.camera = calibration.depth.pinhole;
-    if (result.has_colour)
+    if (result.colour)
       result.registration = std::make_unique<ColourRegistration>(
           calibration.depth, calibration.colour, calibration.rotation, calibration.translation_mm);
-    result.notes.push_back(
-        fmt::format("the distortion of the depth camera's lens stays in the depth; at the border it is up to "
-                    "{:.0f} pixels",
-                    calibration.depth.greatest_distortion_px()));
+    result.notes.push_back(distortion_note(calibration.depth));
   } catch (const std::runtime_error& error) {
     result.notes.push_back(fmt::format("no calibration: {}", error.what()));
-    if (result.has_colour)
+    if (result.colour)
       result.notes.emplace_back(
           "colour is of another camera and cannot be registered to depth; it is only scaled");
   }

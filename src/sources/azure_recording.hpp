@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -11,6 +10,7 @@
 #include <opencv2/core.hpp>
 
 #include "sources/colour_registration.hpp"
+#include "sources/video_file.hpp"
 
 namespace saccade {
 
@@ -21,16 +21,17 @@ inline constexpr const char* kAzureColour = "COLOR";
 /// What a recording of Azure Kinect or of a camera with its interface (Orbbec Femto) holds: a Matroska file
 /// with streams of depth, infrared and colour and the calibration of the cameras.
 struct AzureRecording {
-  bool has_colour = false;
+  std::unique_ptr<VideoFile> colour;                 ///< its stream of colour; nullptr = none
   std::int64_t colour_delay_us = 0;                  ///< first colour image after the first depth image
   std::optional<Intrinsics> camera;                  ///< of depth; empty: the calibration is missing
   std::unique_ptr<ColourRegistration> registration;  ///< nullptr: colour cannot be registered
   std::vector<std::string> notes;                    ///< one line each
 };
 
-/// nullopt if the file is another video. Throws Error (unreadable) if it has infrared but no depth, or cannot
-/// be read. A calibration that is missing or damaged is a note.
-std::optional<AzureRecording> read_azure_recording(const std::filesystem::path& path);
+/// Chooses the stream of depth in `file`, from which nothing was read; nullopt if it is another video. Throws
+/// Error (unreadable) if it has infrared but no depth. A calibration that is missing or damaged is a note,
+/// and so is colour that cannot be read.
+std::optional<AzureRecording> read_azure_recording(VideoFile& file);
 
 /// The two cameras of a calibration.json, for depth and colour images of these sizes. Throws
 /// std::runtime_error with the reason.

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "core/fit_colour.hpp"
 #include "sources/bag_topics.hpp"
 #include "sources/folder_files.hpp"
 #include "sources/frame_fields.hpp"
@@ -45,14 +46,14 @@ class BagSource final : public FrameSource {
     const ChosenStreams chosen = choose_streams(streams, settings, input.uri);
     depth_ = std::move(streams[chosen.depth]);
     if (chosen.colour) colour_ = std::move(streams[*chosen.colour]);
-    unit_mm_ = settings.depth_unit_mm > 0 ? settings.depth_unit_mm : 1;
+    unit_mm_ = settings.depth_unit_mm;
     info_.uri = input.uri;
     info_.kind = kind;
     info_.sequence = true;
     info_.frame_count = static_cast<std::int64_t>(depth_.messages.size());
     info_.rate_hz = measure_rate_hz(depth_.messages);
     info_.size = first_size();
-    info_.depth_unit_mm = depth_.encoding.starts_with("32FC1") ? 0 : unit_mm_;
+    info_.depth_unit_mm = depth_.encoding.starts_with("32FC1") ? 0 : unit_mm_ > 0 ? unit_mm_ : 1;
     info_.intrinsics = Intrinsics::guess_for(info_.size);
     if (chosen.camera) read_camera(streams[*chosen.camera]);
     tolerance_ns_ = std::llround(0.75e9 / info_.rate_hz);
@@ -83,13 +84,11 @@ class BagSource final : public FrameSource {
   }
 
  private:
-  // That of the first depth image that can be read.
+  // That of the first depth image whose header can be used.
   cv::Size first_size() {
     std::string problem;
     for (const BagMessage& message : depth_.messages) try {
-        cv::Mat1f depth;
-        ros_depth(read_ros_image(file_->read(message.place), depth_.topic), unit_mm_, depth);
-        return depth.size();
+        return ros_depth_size(read_ros_image(file_->read(message.place), depth_.topic));
       } catch (const std::runtime_error& error) {
         if (problem.empty()) problem = error.what();
       }
@@ -99,11 +98,41 @@ class BagSource final : public FrameSource {
 
   void read_camera(const BagStream& stream) {
     try {
-      const auto camera = read_ros_camera(file_->read(stream.messages.front().place), stream.topic);
-      if (camera) info_.intrinsics = *camera;
+      if (const auto camera = read_ros_camera(file_->read(stream.messages.front().place), stream.topic))
+        take_camera(*camera, stream.topic.name);
     } catch (const std::runtime_error& error) {
       info_.notes.push_back(fmt::format("{}: {}", stream.topic.name, error.what()));
     }
+  }
+
+  // Of a rectified topic (image_rect), the distortion has been taken out, and the camera is another one.
+  void take_camera(const RosCamera& camera, const std::string& topic) {
+    const bool rectified =
+        depth_.topic.name.find("image_rect") != std::string::npos && camera.rectified.valid();
+    const cv::Size size = camera.lens.size;
+    const double across = static_cast<double>(info_.size.width) / std::max(size.width, 1),
+                 down = static_cast<double>(info_.size.height) / std::max(size.height, 1);
+    if (!size.empty() && std::abs(across / down - 1) > 0.02) {
+      info_.notes.push_back(fmt::format("the camera of {} is not used: it is of images of {} x {}", topic,
+                                        size.width, size.height));
+      return;
+    }
+    info_.intrinsics = rectified ? camera.rectified : camera.lens.pinhole;
+    if (!size.empty() && size != info_.size) {
+      info_.intrinsics = scaled_camera(info_.intrinsics, across, down);
+      info_.notes.push_back(fmt::format("the camera of {} is of images of {} x {} and is scaled", topic,
+                                        size.width, size.height));
+    }
+    if (rectified || !camera.distorted) return;
+    if (!camera.knows_distortion) {
+      info_.notes.push_back(fmt::format("the distortion of the depth camera's lens ({}) stays in the depth",
+                                        camera.distortion_model.substr(0, 40)));
+      return;
+    }
+    LensCamera lens = camera.lens;
+    lens.size = info_.size;
+    lens.pinhole = info_.intrinsics;
+    info_.notes.push_back(distortion_note(lens));
   }
 
   void note_topics(const ChosenStreams& chosen, const std::vector<BagStream>& streams) {
@@ -151,7 +180,7 @@ class BagSource final : public FrameSource {
   SourceInfo info_;
   BagStream depth_;
   std::optional<BagStream> colour_;
-  double unit_mm_ = 1;  // of 16-bit depth
+  double unit_mm_ = 0;  // that the user named; 0 = none
   std::int64_t tolerance_ns_ = 0, next_ = 0;
 };
 
@@ -159,16 +188,22 @@ bool is_bag(const fs::path& file) {
   return std::ranges::count(kEndings, std::string_view(ending_of(file))) > 0;
 }
 
-bool is_ros2_folder(const SourceInput& input) {
+// "NAME.mcap.zstd": the recorder of ROS 2 can compress its files as a whole.
+bool is_packed_bag(const fs::path& file) { return ending_of(file) == ".zstd" && is_bag(file.stem()); }
+
+bool is_ros2(const SourceInput& input) {
   std::error_code code;
+  if (input.type == SourceInput::Type::file) return is_packed_bag(input.path);
   if (input.type != SourceInput::Type::folder || !fs::exists(input.path / "metadata.yaml", code))
     return false;
   for (fs::directory_iterator file(input.path, code), end; !code && file != end; file.increment(code))
-    if (is_bag(file->path())) return true;
+    if (is_bag(file->path()) || is_packed_bag(file->path())) return true;
   return false;
 }
 
 std::unique_ptr<BagFile> open_bag(const fs::path& path) {
+  if (is_packed_bag(path))
+    throw unreadable("the file is compressed as a whole", path.string(), "decompress it: zstd -d FILE");
   const std::string ending = ending_of(path);
   if (ending == ".mcap") return open_mcap(path);
   return ending == ".db3" ? open_db3(path) : open_ros1_bag(path);
@@ -179,7 +214,11 @@ std::unique_ptr<BagFile> open_bag(const fs::path& path) {
 std::unique_ptr<BagFile> open_ros2_folder(const fs::path& folder, std::vector<std::string>& notes) {
   std::vector<BagPart> parts;
   std::optional<Error> first_error;
-  for (const auto& [stem, path] : files_of(folder, {std::begin(kEndings), std::end(kEndings)})) try {
+  auto files = files_of(folder, {std::begin(kEndings), std::end(kEndings)});
+  for (const auto& [stem, path] : files_of(folder, {".zstd"}))
+    if (is_packed_bag(path))
+      files.emplace(fs::path(stem).stem().string(), path);  // unless it is there unpacked
+  for (const auto& [stem, path] : files) try {
       parts.push_back({path.filename().string(), open_bag(path)});
     } catch (const Error& error) {
       notes.emplace_back(error.what());
@@ -198,7 +237,7 @@ extern const SourceKind kBagKind = {
         "a recording of ROS 1 (.bag) or ROS 2 (.mcap, .db3, or its folder); --topics chooses among several",
     .recognised_by = "metadata.yaml beside an .mcap or .db3",
     .endings = kEndings,
-    .recognises = is_ros2_folder,
+    .recognises = is_ros2,
     .open = [](const SourceInput& input, const SourceOptions& options) -> std::unique_ptr<FrameSource> {
       std::vector<std::string> notes;
       auto file = input.type == SourceInput::Type::folder ? open_ros2_folder(input.path, notes)
@@ -206,6 +245,7 @@ extern const SourceKind kBagKind = {
       return std::make_unique<BagSource>(input, kBagKind.name, std::move(file), options.input,
                                          std::move(notes));
     },
+    .has_topics = true,
 };
 
 }  // namespace saccade

@@ -68,7 +68,8 @@ std::size_t choose_depth(const std::vector<BagStream>& streams, const std::strin
     std::string held;
     for (const BagStream& stream : streams) {
       if (!held.empty()) held += ", ";
-      held += stream.topic.name + (stream.encoding.empty() ? "" : " (" + stream.encoding.substr(0, 40) + ")");
+      const std::string& what = stream.encoding.empty() ? stream.problem : stream.encoding;
+      held += stream.topic.name + (what.empty() ? "" : " (" + what.substr(0, 80) + ")");
     }
     throw unreadable("no topic of depth (16UC1, mono16, 32FC1 or compressedDepth)", file,
                      held.empty() ? "it holds no images" : "it holds " + held);
@@ -112,8 +113,8 @@ std::vector<BagStream> list_streams(BagFile& file) {
           stream.is_depth = image.is_depth();
           stream.is_colour = image.is_colour();
         }
-      } catch (const std::runtime_error&) {
-        // Its reason is given when it is read.
+      } catch (const std::runtime_error& error) {  // it is given again when the message is read
+        if (stream.problem.empty()) stream.problem = error.what();
       }
     stream.is_camera = stream.topic.type == "sensor_msgs/CameraInfo";
     if (is_image(stream.topic) || stream.is_camera) stream.messages.push_back(message);

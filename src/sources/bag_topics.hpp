@@ -20,7 +20,8 @@ struct BagMessage {
 struct BagStream {
   BagTopic topic;
   bool is_depth = false, is_colour = false, is_camera = false;
-  std::string encoding;  ///< of its first image
+  std::string encoding;  ///< of its first image; empty: it cannot be read
+  std::string problem;   ///< why
   std::vector<BagMessage> messages;
 };
 

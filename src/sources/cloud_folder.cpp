@@ -14,6 +14,15 @@ namespace {
 
 constexpr std::string_view kEndings[] = {".pcd", ".ply"};
 
+// The image beside NAME.pcd: NAME.png or .jpg, or NNNN_rgb.png beside NNNN_cloud.pcd; empty if there is none.
+// A PNG of 16-bit grey is the depth of the cloud, not its colour.
+fs::path colour_beside(const FolderNames& names, const std::string& stem) {
+  const std::string frame = stem.substr(0, stem.find("_cloud"));
+  const fs::path path = names.first_of({stem + ".png", stem + ".jpg", stem + ".jpeg", frame + "_rgb.png",
+                                        frame + "_rgb.jpg", frame + "_rgb.jpeg"});
+  return path.empty() || is_depth_png(path) ? fs::path() : path;
+}
+
 FolderListing list_clouds(const fs::path& folder) {
   std::map<std::int64_t, FolderEntry> found;
   const FolderNames names(folder);
@@ -26,6 +35,7 @@ FolderListing list_clouds(const fs::path& folder) {
     FolderEntry entry;
     entry.name = stem.substr(0, stem.find("_cloud"));
     entry.depth = path;
+    entry.colour = colour_beside(names, stem);
     if (!found.emplace(*number, entry).second)
       throw unreadable("two clouds have the same number", path.string(), "rename or delete one");
   }
@@ -40,6 +50,7 @@ FolderListing list_one(const fs::path& file) {
   FolderEntry entry;
   entry.name = file.stem().string();
   entry.depth = file;
+  entry.colour = colour_beside(FolderNames(file.parent_path()), entry.name);
   listing.entries.push_back(std::move(entry));
   listing.cloud = file;
   return listing;
@@ -58,7 +69,8 @@ bool has_clouds(const SourceInput& input) {
 extern const SourceKind kCloudsKind = {
     .name = "clouds",
     .written = "FOLDER or FILE.pcd",
-    .help = "organised point clouds: numbered .pcd, or .ply as export writes them; also a single one",
+    .help =
+        "organised point clouds: numbered .pcd, or .ply as export writes them, with colour; or a single one",
     .recognised_by = "a file that ends in .pcd or .ply",
     .endings = kEndings,
     .recognises = has_clouds,

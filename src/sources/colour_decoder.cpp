@@ -31,18 +31,19 @@ void turn_upright(double angle_degrees, cv::Mat3b& image) {
 
 void ColourDecoder::FreeScaler::operator()(SwsContext* scaler) const { sws_freeContext(scaler); }
 
-ColourDecoder::ColourDecoder(const std::filesystem::path& path, std::string_view title)
-    : file_(path, title), frame_(av_frame_alloc()), bgr_(av_frame_alloc()) {
-  const AVCodec* codec = avcodec_find_decoder(file_.codec().codec_id);
+ColourDecoder::ColourDecoder(std::unique_ptr<VideoFile> file)
+    : file_(std::move(file)), frame_(av_frame_alloc()), bgr_(av_frame_alloc()) {
+  const AVCodec* codec = avcodec_find_decoder(file_->codec().codec_id);
   const auto refuse = [&](const std::string& why) {
-    return unreadable("this video cannot be decoded: " + why, path.string(), "the file may be damaged");
+    return unreadable("this video cannot be decoded: " + why, file_->path().string(),
+                      "the file may be damaged");
   };
   if (codec == nullptr)
-    throw refuse(std::string("unknown codec ") + avcodec_get_name(file_.codec().codec_id));
+    throw refuse(std::string("unknown codec ") + avcodec_get_name(file_->codec().codec_id));
   context_.reset(avcodec_alloc_context3(codec));
   if (!frame_ || !bgr_ || !context_) throw std::bad_alloc();
-  if (avcodec_parameters_to_context(context_.get(), &file_.codec()) < 0) throw std::bad_alloc();
-  context_->pkt_timebase = file_.time_base();
+  if (avcodec_parameters_to_context(context_.get(), &file_->codec()) < 0) throw std::bad_alloc();
+  context_->pkt_timebase = file_->time_base();
   context_->thread_count = 1;  // so that its messages come on this thread
   context_->max_pixels = kMostPixels;
   context_->err_recognition = AV_EF_CRCCHECK | AV_EF_EXPLODE;  // errors instead of invented pixels
@@ -63,7 +64,7 @@ std::optional<ColourPicture> ColourDecoder::next() {
 }
 
 void ColourDecoder::decode_packet() {
-  const auto position = file_.next();
+  const auto position = file_->next();
   if (!position) return finish();
   const std::int64_t number = ++number_;
   if (position->packet == nullptr) return lose({position->time_us, group_, false}, number, position->problem);
@@ -110,7 +111,7 @@ int ColourDecoder::receive_pictures() {
 
 void ColourDecoder::take_picture(Waiting waiting, std::int64_t number) {
   if (frame_->best_effort_timestamp != AV_NOPTS_VALUE)
-    waiting.time_us = file_.time_us(frame_->best_effort_timestamp);
+    waiting.time_us = file_->time_us(frame_->best_effort_timestamp);
   if (frame_->decode_error_flags != 0 || (frame_->flags & AV_FRAME_FLAG_CORRUPT) != 0)
     return lose(waiting, number, "damaged: the decoder had to guess a part of it");
   if (depends_on_damage(waiting, number)) return lose(waiting, number, kDependent);
@@ -156,7 +157,7 @@ void ColourDecoder::convert(cv::Mat3b& image) {
   cv::Mat3b(height, width, reinterpret_cast<cv::Vec3b*>(bgr_->data[0]),
             static_cast<std::size_t>(bgr_->linesize[0]))
       .copyTo(image);
-  turn_upright(file_.rotation_degrees(), image);
+  turn_upright(file_->rotation_degrees(), image);
 }
 
 }  // namespace saccade

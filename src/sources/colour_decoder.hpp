@@ -2,12 +2,10 @@
 
 #include <cstdint>
 #include <deque>
-#include <filesystem>
 #include <map>
 #include <memory>
 #include <optional>
 #include <string>
-#include <string_view>
 
 #include <opencv2/core.hpp>
 
@@ -29,10 +27,10 @@ struct ColourPicture {
 /// Damage that a codec without checksums decodes into other pixels goes unnoticed.
 class ColourDecoder {
  public:
-  /// `title` as in VideoFile. Throws Error (unreadable): not a video, or of an unknown codec.
-  explicit ColourDecoder(const std::filesystem::path& path, std::string_view title = {});
+  /// Of a file from which nothing was taken. Throws Error (unreadable): of an unknown codec.
+  explicit ColourDecoder(std::unique_ptr<VideoFile> file);
 
-  double rate_hz() const { return file_.rate_hz(); }  ///< nominal, > 0
+  double rate_hz() const { return file_->rate_hz(); }  ///< nominal, > 0
 
   /// The next position; std::nullopt at the end.
   [[nodiscard]] std::optional<ColourPicture> next();
@@ -65,7 +63,7 @@ class ColourDecoder {
   bool depends_on_damage(const Waiting& waiting, std::int64_t number) const;
   void convert(cv::Mat3b& image);
 
-  VideoFile file_;
+  std::unique_ptr<VideoFile> file_;
   std::unique_ptr<AVCodecContext, FreeContext> context_;
   Frame frame_, bgr_;
   std::unique_ptr<SwsContext, FreeScaler> scaler_;

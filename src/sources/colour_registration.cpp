@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include <fmt/format.h>
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
 
@@ -52,6 +53,12 @@ double LensCamera::greatest_distortion_px() const {
     look_at(row, size.width - 1);
   }
   return greatest;
+}
+
+std::string distortion_note(const LensCamera& camera) {
+  return fmt::format(
+      "the distortion of the depth camera's lens stays in the depth; at the border it is up to {:.0f} pixels",
+      camera.greatest_distortion_px());
 }
 
 cv::Mat1f without_holes(const cv::Mat1f& depth_mm) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <string>
 
 #include <opencv2/core.hpp>
 
@@ -23,6 +24,9 @@ struct LensCamera {
   /// By how much the lens moves the pixels of the border at most, px.
   double greatest_distortion_px() const;
 };
+
+/// The note in SourceInfo of depth that such a camera took and whose distortion stays.
+std::string distortion_note(const LensCamera& camera);
 
 /// Makes an image of one camera look as if the depth camera had taken it: each depth pixel gets the colour
 /// that the colour camera sees at its point. Where depth has no reading, it is interpolated for this purpose.

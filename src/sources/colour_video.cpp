@@ -8,14 +8,15 @@
 
 namespace saccade {
 
-ColourVideo::ColourVideo(std::filesystem::path path, std::string title)
-    : path_(std::move(path)), title_(std::move(title)) {
-  open();
+ColourVideo::ColourVideo(std::unique_ptr<VideoFile> file) : path_(file->path()), title_(file->title()) {
+  open(std::move(file));
 }
 
-void ColourVideo::open() {
+void ColourVideo::reopen() { open(std::make_unique<VideoFile>(path_, title_)); }
+
+void ColourVideo::open(std::unique_ptr<VideoFile> file) {
   constexpr std::size_t kMostTried = 10'000;
-  decoder_ = std::make_unique<ColourDecoder>(path_, title_);
+  decoder_ = std::make_unique<ColourDecoder>(std::move(file));
   first_.clear();
   now_.reset();
   ahead_.reset();
@@ -56,7 +57,7 @@ void ColourVideo::advance() {
 }
 
 bool ColourVideo::nearest(std::int64_t time_us, std::int64_t tolerance_us, cv::Mat3b& image) {
-  if (now_ && time_us < now_->time_us) open();
+  if (now_ && time_us < now_->time_us) reopen();
   if (!std::exchange(searching_, true)) advance();
   while (ahead_ && (!now_ || std::abs(ahead_->time_us - time_us) <= std::abs(now_->time_us - time_us)))
     advance();

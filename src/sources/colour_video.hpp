@@ -16,8 +16,9 @@ namespace saccade {
 /// Colour images of a video file, in the order of their times.
 class ColourVideo {
  public:
-  /// `title` as in VideoFile. Throws Error (unreadable): not a video, or without any sound image.
-  explicit ColourVideo(std::filesystem::path path, std::string title = {});
+  /// Of a file from which nothing was taken. Throws Error (unreadable): no sound image, or of an unknown
+  /// codec.
+  explicit ColourVideo(std::unique_ptr<VideoFile> file);
 
   cv::Size size() const { return size_; }  ///< of the first sound image
   double rate_hz() const { return decoder_->rate_hz(); }
@@ -34,7 +35,8 @@ class ColourVideo {
   [[nodiscard]] bool skip();
 
  private:
-  void open();
+  void open(std::unique_ptr<VideoFile> file);
+  void reopen();
   std::optional<ColourPicture> next();
   void advance();
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <new>
-#include <optional>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -21,10 +20,8 @@ extern "C" {
 #include "core/image_size.hpp"
 #include "core/png.hpp"
 #include "core/text.hpp"
-#include "sources/video_file.hpp"
 
 namespace saccade {
-namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* kExactRoutes =
@@ -44,14 +41,14 @@ bool is_png(Bytes packet) {
 // Images of a file's packets, which derived classes decode.
 class PacketVideo : public DepthVideo {
  public:
-  PacketVideo(const fs::path& path, std::string_view title) : file_(path, title) {}
+  explicit PacketVideo(std::unique_ptr<VideoFile> file) : file_(std::move(file)) {}
 
-  cv::Size size() const final { return file_.size(); }
-  double rate_hz() const final { return file_.rate_hz(); }
-  bool has_checksums() const override { return file_.has_checksums(); }
+  cv::Size size() const final { return file_->size(); }
+  double rate_hz() const final { return file_->rate_hz(); }
+  bool has_checksums() const override { return file_->has_checksums(); }
 
   bool read(cv::Mat1w& depth, std::int64_t& time_us) final {
-    const auto next = file_.next();
+    const auto next = file_->next();
     if (!next) return false;
     time_us = next->time_us;
     if (!next->problem.empty() && (next->packet == nullptr || !proves_itself(*next->packet))) {
@@ -65,10 +62,10 @@ class PacketVideo : public DepthVideo {
     return true;
   }
 
-  bool skip() override { return file_.next().has_value(); }
+  bool skip() override { return file_->next().has_value(); }
 
  protected:
-  const VideoFile& file() const { return file_; }
+  const VideoFile& file() const { return *file_; }
 
  private:
   // Fills `depth`, or throws std::runtime_error.
@@ -79,7 +76,7 @@ class PacketVideo : public DepthVideo {
   // This image will not be decoded.
   virtual void lose_image() {}
 
-  VideoFile file_;
+  std::unique_ptr<VideoFile> file_;
 };
 
 class PngVideo final : public PacketVideo {
@@ -123,8 +120,8 @@ class RawVideo final : public PacketVideo {
 // An image may depend on those before it, back to the last key frame.
 class Ffv1Video final : public PacketVideo {
  public:
-  Ffv1Video(const fs::path& path, std::string_view title)
-      : PacketVideo(path, title), frame_(av_frame_alloc()) {
+  explicit Ffv1Video(std::unique_ptr<VideoFile> opened)
+      : PacketVideo(std::move(opened)), frame_(av_frame_alloc()) {
     const AVCodec* codec = avcodec_find_decoder(AV_CODEC_ID_FFV1);
     context_.reset(codec == nullptr ? nullptr : avcodec_alloc_context3(codec));
     if (!frame_ || !context_) throw std::bad_alloc();
@@ -138,7 +135,7 @@ class Ffv1Video final : public PacketVideo {
     const auto error = messages.take_error();
     if (code < 0)
       throw unreadable("this FFV1 video cannot be decoded: " + error.value_or("damaged header"),
-                       path.string(), "the file may be damaged");
+                       file().path().string(), "the file may be damaged");
   }
 
   // From version 2 on the stream has a header of its own, and by default checksums.
@@ -213,26 +210,41 @@ class Ffv1Video final : public PacketVideo {
 
 bool is_grey16(int format) { return format == AV_PIX_FMT_GRAY16LE || format == AV_PIX_FMT_GRAY16BE; }
 
+enum class Route { none, png, raw, ffv1 };  // none: it is no depth
+
+Route route_of(VideoFile& file) {
+  const AVPacket* first = file.peek();
+  const std::string path = file.path().string();
+  if (first == nullptr)
+    throw unreadable("no video that can be read", path, "the file may be truncated or not a video");
+  const AVCodecParameters& codec = file.codec();
+  if (is_grey16(codec.format)) {
+    if (is_png(bytes_of(*first))) return Route::png;
+    if (codec.codec_id == AV_CODEC_ID_RAWVIDEO) return Route::raw;
+    if (codec.format == AV_PIX_FMT_GRAY16LE && codec.codec_id == AV_CODEC_ID_FFV1) return Route::ffv1;
+    throw unreadable("16-bit grey in a codec that need not keep every bit", path, kExactRoutes);
+  }
+  if (file.path().stem().string().ends_with("_depth"))
+    throw unreadable("this depth video has 8 bits a pixel, or would be flattened to 8", path, kExactRoutes);
+  return Route::none;
+}
+
 }  // namespace
 
-std::unique_ptr<DepthVideo> open_depth_video(const fs::path& path, std::string_view title) {
-  VideoFile file(path, title);
-  const auto first = file.next();
-  if (!first || first->packet == nullptr)
-    throw unreadable("no video that can be read", path.string(), "the file may be truncated or not a video");
-  const AVCodecParameters& codec = file.codec();
-  const bool png = is_png(bytes_of(*first->packet));
-  if (is_grey16(codec.format)) {
-    if (png) return std::make_unique<PngVideo>(path, title);
-    if (codec.codec_id == AV_CODEC_ID_RAWVIDEO) return std::make_unique<RawVideo>(path, title);
-    if (codec.format == AV_PIX_FMT_GRAY16LE && codec.codec_id == AV_CODEC_ID_FFV1)
-      return std::make_unique<Ffv1Video>(path, title);
-    throw unreadable("16-bit grey in a codec that need not keep every bit", path.string(), kExactRoutes);
+bool holds_depth(VideoFile& file) { return route_of(file) != Route::none; }
+
+std::unique_ptr<DepthVideo> open_depth_video(std::unique_ptr<VideoFile> file) {
+  switch (route_of(*file)) {
+    case Route::png:
+      return std::make_unique<PngVideo>(std::move(file));
+    case Route::raw:
+      return std::make_unique<RawVideo>(std::move(file));
+    case Route::ffv1:
+      return std::make_unique<Ffv1Video>(std::move(file));
+    case Route::none:
+      break;
   }
-  if (path.stem().string().ends_with("_depth"))
-    throw unreadable("this depth video has 8 bits a pixel, or would be flattened to 8", path.string(),
-                     kExactRoutes);
-  return nullptr;
+  throw unreadable("it holds no depth", file->path().string(), kExactRoutes);
 }
 
 }  // namespace saccade

@@ -1,11 +1,11 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <memory>
-#include <string_view>
 
 #include <opencv2/core.hpp>
+
+#include "sources/video_file.hpp"
 
 namespace saccade {
 
@@ -28,9 +28,13 @@ class DepthVideo {
   [[nodiscard]] virtual bool skip() = 0;
 };
 
-/// Opens a video file of depth: FFV1 of 16-bit grey, 16-bit grey PNGs, or uncompressed 16-bit grey; `title`
-/// as in VideoFile. nullptr if it holds 8-bit video. Throws Error (unreadable): not a video, images that
-/// check_image_size() refuses, or 16 bits in a codec that does not keep them.
-std::unique_ptr<DepthVideo> open_depth_video(const std::filesystem::path& path, std::string_view title = {});
+/// Whether the stream of a file from which nothing was read holds depth: FFV1 of 16-bit grey, 16-bit grey
+/// PNGs, or uncompressed 16-bit grey. Throws Error (unreadable): it has no images, or 16 bits in a codec that
+/// does not keep them.
+bool holds_depth(VideoFile& file);
+
+/// The depth of a file for which holds_depth() is true. Throws Error (unreadable) as that, or if the codec
+/// refuses the header.
+std::unique_ptr<DepthVideo> open_depth_video(std::unique_ptr<VideoFile> file);
 
 }  // namespace saccade

@@ -73,8 +73,8 @@ std::optional<std::int64_t> first_number(std::string_view name) {
   return number_of(name.substr(begin, end - begin));
 }
 
-std::vector<double> read_numbers(const fs::path& file) {
-  const auto bytes = read_file(file, 1u << 20);
+std::vector<double> read_numbers(const fs::path& file, std::uintmax_t largest_file) {
+  const auto bytes = read_file(file, largest_file);
   std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   std::vector<double> numbers;
   constexpr std::string_view kBlank = " \t\r\n,";

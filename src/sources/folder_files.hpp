@@ -36,9 +36,9 @@ std::optional<std::int64_t> last_number(std::string_view name);
 /// The first number in a name: 1 of "0000001-000033369"; std::nullopt if there is none.
 std::optional<std::int64_t> first_number(std::string_view name);
 
-/// The numbers of a small text file, in their order; infinities and NaN are numbers too. Throws Error
-/// (unreadable) if it cannot be read or holds something else.
-std::vector<double> read_numbers(const std::filesystem::path& file);
+/// The numbers of a text file of at most `largest_file` bytes, in their order; infinities and NaN are numbers
+/// too. Throws Error (unreadable) if it cannot be read or holds something else.
+std::vector<double> read_numbers(const std::filesystem::path& file, std::uintmax_t largest_file = 1u << 20);
 
 /// The camera of a 3 x 3 or 4 x 4 matrix (px) of such a file. Throws Error (unreadable) if it is none.
 Intrinsics read_camera_matrix(const std::filesystem::path& file);

@@ -1,7 +1,9 @@
 #include "sources/folder_images.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <fstream>
 #include <map>
 #include <span>
 #include <stdexcept>
@@ -12,10 +14,10 @@
 
 #include "core/depth_units.hpp"
 #include "core/file.hpp"
+#include "core/fit_colour.hpp"
 #include "core/image_size.hpp"
 #include "core/outcome.hpp"
 #include "core/png.hpp"
-#include "sources/frame_fields.hpp"
 #include "sources/pcd.hpp"
 #include "sources/ply.hpp"
 #include "sources/source_kind.hpp"
@@ -102,9 +104,25 @@ cv::Mat1w labels_of_colours(const cv::Mat3b& image) {
 
 bool is_cloud(const fs::path& path) { return ending_of(path) == ".pcd" || is_ply(path); }
 
+bool is_depth_png(const fs::path& path) {
+  constexpr std::size_t kHeader = 64;
+  std::array<char, kHeader> begin{};
+  std::ifstream file(path, std::ios::binary);
+  file.read(begin.data(), begin.size());
+  try {
+    const PngHeader header = read_png_header(
+        {reinterpret_cast<const std::uint8_t*>(begin.data()), static_cast<std::size_t>(file.gcount())});
+    return header.bits == 16 && header.channels == "grey";
+  } catch (const std::runtime_error&) {
+    return false;
+  }
+}
+
 cv::Size read_depth_size(const fs::path& path) { return depth_size(path, read_image_file(path)); }
 
-void read_depth_file(const fs::path& path, cv::Size size, const DepthForm& form, cv::Mat1f& depth_mm) {
+void read_depth_file(const fs::path& path, cv::Size size, const DepthForm& form, cv::Mat1f& depth_mm,
+                     cv::Mat3b& colour) {
+  colour.release();
   const auto bytes = read_image_file(path);
   if (const cv::Size stored = depth_size(path, bytes); stored != size)
     throw std::runtime_error(fmt::format("{}x{}, but the first frame is {}x{}", stored.width, stored.height,
@@ -114,7 +132,9 @@ void read_depth_file(const fs::path& path, cv::Size size, const DepthForm& form,
     if (form.rotated_bits) rotate_bits(stored);
     return depth_from_units(stored, form.mm_per_unit, depth_mm);
   }
-  depth_mm = read_cloud(path, bytes).depth_mm;
+  OrganisedCloud cloud = read_cloud(path, bytes);
+  depth_mm = cloud.depth_mm;
+  colour = cloud.colour;
   if (form.mm_per_real != 1000) depth_from_reals(depth_mm, form.mm_per_real / 1000, depth_mm);
   const double unit = form.cloud_unit_mm;
   if (unit > 0)

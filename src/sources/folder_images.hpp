@@ -24,14 +24,18 @@ struct DepthForm {
 /// Whether a file is a point cloud by its ending: .pcd or .ply.
 bool is_cloud(const std::filesystem::path& path);
 
+/// Whether a file begins as a PNG of 16-bit grey; false if it cannot be read.
+bool is_depth_png(const std::filesystem::path& path);
+
 /// The size of a depth image or cloud, by its header. Throws std::runtime_error with the reason if it cannot
 /// be used: it is broken, not 16-bit grey, below 8 pixels a side, or refused by check_image_size().
 cv::Size read_depth_size(const std::filesystem::path& path);
 
-/// Reads a depth image or cloud of this size; 0 = no reading. Throws std::runtime_error with the reason; the
-/// size is checked before the image is decoded.
+/// Reads a depth image or cloud of this size; 0 = no reading. `colour` becomes that of the points of a cloud,
+/// if it has any, else empty. Throws std::runtime_error with the reason; the size is checked before the image
+/// is decoded.
 void read_depth_file(const std::filesystem::path& path, cv::Size size, const DepthForm& form,
-                     cv::Mat1f& depth_mm);
+                     cv::Mat1f& depth_mm, cv::Mat3b& colour);
 
 /// The stored values of a 16-bit grey PNG. Throws std::runtime_error with the reason.
 cv::Mat1w read_depth_png(const std::filesystem::path& path);

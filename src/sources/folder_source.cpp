@@ -8,14 +8,13 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "core/fit_colour.hpp"
 #include "sources/folder_images.hpp"
 #include "sources/meta_json.hpp"
 
 namespace saccade {
 namespace fs = std::filesystem;
 namespace {
-
-std::string plain(cv::Size size) { return fmt::format("{}x{}", size.width, size.height); }
 
 class FolderSource final : public FrameSource {
  public:
@@ -52,7 +51,7 @@ class FolderSource final : public FrameSource {
     frame.truth = {};
     frame.truth.camera_to_world = entry.camera_to_world;
     try {
-      read_depth_file(entry.depth, info_.size, form_, frame.depth_mm);
+      read_depth_file(entry.depth, info_.size, form_, frame.depth_mm, frame.colour);
     } catch (const std::runtime_error& error) {  // an Error, or the reason of a decoder
       return {ReadStatus::rejected, fmt::format("{}: {}", entry.depth.filename().string(), error.what())};
     }
@@ -89,8 +88,7 @@ class FolderSource final : public FrameSource {
         if (entry.colour.empty()) continue;
         if (tries-- == 0) return;
         if (const cv::Size size = ColourReader::read_size(entry.colour); size != info_.size)
-          info_.notes.push_back(
-              fmt::format("colour of {} is scaled to the depth's {}", plain(size), plain(info_.size)));
+          info_.notes.push_back(fitted_colour_note(size, info_.size));
         return;
       } catch (const std::runtime_error&) {
         // The frame's reason is given when it is read.
@@ -119,7 +117,7 @@ class FolderSource final : public FrameSource {
                                 path.filename().string(), error.what());
       }
     };
-    frame.colour.release();
+    if (!entry.colour.empty()) frame.colour.release();
     attempt("colour", entry.colour, [&] { frame.colour = colour_.read(entry.colour, info_.size); });
     attempt("labels", entry.label, [&] {
       frame.truth.labels = read_label_image(entry.label, info_.size, listing_.colours_are_labels);

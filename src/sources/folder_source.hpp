@@ -38,12 +38,12 @@ struct FolderListing {
 };
 
 /// Opens the frames of `listing`, found in `folder`, as a source of kind `kind`. Depth is a 16-bit
-/// grey PNG, or z of an organised PCD or PLY; label and class images are grey or palette. Every frame has the
-/// size of the first that is usable. The camera is that of meta.json (read_meta()), else of the layout, else
-/// the one that fits the points of the cloud, else a guess. A frame whose depth cannot be used is rejected
-/// with the reason. Colour of another size is scaled; colour, labels or classes that cannot be used leave the
-/// frame without them, and ReadResult::reason says why. Throws Error (unreadable): no depth image is usable,
-/// meta.json is broken.
+/// grey PNG, or z of an organised PCD or PLY, whose colours are those of the frame if it has no colour image;
+/// label and class images are grey or palette. Every frame has the size of the first that is usable. The
+/// camera is that of meta.json (read_meta()), else of the layout, else the one that fits the points of the
+/// cloud, else a guess. A frame whose depth cannot be used is rejected with the reason. Colour of another
+/// size is scaled; colour, labels or classes that cannot be used leave the frame without them, and
+/// ReadResult::reason says why. Throws Error (unreadable): no depth image is usable, meta.json is broken.
 std::unique_ptr<FrameSource> open_folder(const SourceInput& input, const std::filesystem::path& folder,
                                          std::string_view kind, FolderListing listing,
                                          const InputSettings& settings);

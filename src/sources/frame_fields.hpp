@@ -1,11 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <string>
-
-#include <fmt/format.h>
-#include <opencv2/imgproc.hpp>
-
 #include "core/frame_source.hpp"
 
 namespace saccade {
@@ -20,21 +15,6 @@ inline void begin_frame(Frame& frame, const SourceInfo& info, std::int64_t index
   frame.name.clear();
   frame.intrinsics = info.intrinsics;
   frame.truth = {};
-}
-
-/// Fills `colour` with `image` in the depth's size; a copy if it has that already.
-inline void fit_colour(const cv::Mat3b& image, cv::Size size, cv::Mat3b& colour) {
-  if (image.size() == size)
-    image.copyTo(colour);
-  else
-    cv::resize(image, colour, size, 0, 0,
-               image.size().area() > size.area() ? cv::INTER_AREA : cv::INTER_LINEAR);
-}
-
-/// The note in SourceInfo for it.
-inline std::string fitted_colour_note(cv::Size image, cv::Size depth) {
-  return fmt::format("colour of {} x {} is scaled to the depth's {} x {}", image.width, image.height,
-                     depth.width, depth.height);
 }
 
 /// Depth without a reading.

@@ -40,7 +40,7 @@ FolderListing list_numbered(const fs::path& folder) {
     if (!found.emplace(*number, entry).second)
       throw unreadable("two depth images have the same number", entry.depth.string(), "rename or delete one");
   }
-  const std::vector<cv::Affine3d> poses = read_poses(folder);
+  const auto poses = read_poses(folder);
   FolderListing listing = list_by_number(std::move(found), read_times(folder / "times.txt"));
   listing.sequence = listing.sequence || !poses.empty();
   for (std::size_t i = 0; i < std::min(poses.size(), listing.entries.size()); ++i)

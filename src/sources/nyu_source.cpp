@@ -56,9 +56,9 @@ class NyuSource : public FrameSource {
     // The RGB camera of the data set's toolbox, which counts pixels from 1; depth is registered to it.
     if (info_.size == cv::Size(640, 480))
       info_.intrinsics = {518.857901, 519.469611, 324.582449, 252.736166, IntrinsicsOrigin::sensor};
-    if (!labels_) info_.notes.push_back("there are no labels in the file");
+    if (!labels_) info_.notes.push_back("there are no labels that can be used in the file");
     if (labels_ && !instances_)
-      info_.notes.push_back("there are no instances in the file: each class counts as one object");
+      info_.notes.push_back("there are no instances that can be used: each class counts as one object");
   }
 
   const SourceInfo& info() const override { return info_; }
@@ -74,12 +74,21 @@ class NyuSource : public FrameSource {
     frame.truth = {};
     try {
       read_depth(frame);
-      read_colour(frame);
-      read_labels(frame);
     } catch (const std::runtime_error& error) {
       return {ReadStatus::rejected, error.what()};
     }
-    return {ReadStatus::frame, ""};
+    std::string problems;
+    const auto attempt = [&](const char* what, auto read) {
+      try {
+        read();
+      } catch (const std::runtime_error& error) {
+        problems += fmt::format("{}no {}: {}", problems.empty() ? "" : "; ", what, error.what());
+      }
+    };
+    frame.colour.release();
+    attempt("colour", [&] { read_colour(frame); });
+    attempt("labels", [&] { read_labels(frame); });
+    return {ReadStatus::frame, problems};
   }
 
  private:
@@ -96,14 +105,21 @@ class NyuSource : public FrameSource {
     check_image_size(static_cast<std::int64_t>(shape[1]), static_cast<std::int64_t>(shape[2]));
     info_.size = {static_cast<int>(shape[1]), static_cast<int>(shape[2])};
     info_.frame_count = static_cast<std::int64_t>(shape[0]);
-    images_ = Hdf5Images::open(file_, "images");
-    if (images_ && images_->shape() != std::vector<hsize_t>{shape[0], 3, shape[1], shape[2]})
-      throw std::runtime_error("images are not N x 3 x W x H like the depths");
-    labels_ = Hdf5Images::open(file_, "labels");
-    instances_ = Hdf5Images::open(file_, "instances");
-    for (const auto* array : {&labels_, &instances_})
-      if (*array && (*array)->shape() != shape)
-        throw std::runtime_error("labels or instances are not N x W x H like the depths");
+    images_ = open_companion("images", {shape[0], 3, shape[1], shape[2]});
+    labels_ = open_companion("labels", shape);
+    instances_ = open_companion("instances", shape);
+  }
+
+  // Depth does not need it: what does not fit is a note.
+  std::optional<Hdf5Images> open_companion(const std::string& name, const std::vector<hsize_t>& shape) {
+    try {
+      auto array = Hdf5Images::open(file_, name);
+      if (!array || array->shape() == shape) return array;
+      info_.notes.push_back(fmt::format("{} are not used: their shape is not that of the depths", name));
+    } catch (const std::runtime_error& error) {
+      info_.notes.push_back(fmt::format("{} are not used: {}", name, error.what()));
+    }
+    return std::nullopt;
   }
 
   // One plane of W x H as it lies in the file is the transpose of the image.
@@ -121,7 +137,6 @@ class NyuSource : public FrameSource {
   }
 
   void read_colour(Frame& frame) {
-    frame.colour.release();
     if (!images_) return;
     const cv::Size plane = stored();
     cv::Mat1b planes(3 * plane.height, plane.width);

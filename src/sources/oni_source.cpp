@@ -8,8 +8,8 @@
 
 #include "core/depth_units.hpp"
 #include "core/error.hpp"
+#include "core/fit_colour.hpp"
 #include "core/text.hpp"
-#include "sources/frame_fields.hpp"
 #include "sources/source_kind.hpp"
 
 namespace saccade {

@@ -1,6 +1,7 @@
 #include "sources/open_source.hpp"
 
 #include <algorithm>
+#include <deque>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -52,39 +53,66 @@ Error not_recognised(const SourceInput& input) {
                     has_source_ending(input.path) ? "check the path" : "expected " + source_forms());
 }
 
-// A source with one note more.
-class NotedSource final : public FrameSource {
+// What a user says about a source must have an effect: a unit that is ignored gives wrong lengths without a
+// word.
+void check_input_settings(const SourceKind& kind, const InputSettings& settings, const std::string& uri) {
+  if (settings.depth_unit_mm > 0 && !kind.is_path)
+    throw usage_error("--depth-unit has no effect on this source", uri,
+                      "it is for files; leave it out: the depth of a sensor or a scene is in mm");
+  const bool topics =
+      !(settings.depth_topic.empty() && settings.colour_topic.empty() && settings.camera_topic.empty());
+  if (topics && !kind.has_topics)
+    throw usage_error("--topics has no effect on this source", uri,
+                      "it is for recordings of ROS; leave it out");
+}
+
+// A file whose first frames, up to the first usable one, are read when it is opened, to look at their depth:
+// a wrong unit would give an empty map without a word. They are given to the first reader, not read again.
+class ExaminedSource final : public FrameSource {
  public:
-  NotedSource(std::unique_ptr<FrameSource> source, std::string note)
+  explicit ExaminedSource(std::unique_ptr<FrameSource> source)
       : source_(std::move(source)), info_(source_->info()) {
-    info_.notes.push_back(std::move(note));
+    constexpr std::size_t kMost = 3;
+    do {
+      Taken& taken = ahead_.emplace_back();
+      taken.result = source_->read(taken.frame, std::chrono::milliseconds(0));
+    } while (ahead_.back().result.status == ReadStatus::rejected && ahead_.size() < kMost);
+    if (ahead_.back().result.status != ReadStatus::frame) return;
+    if (auto note = describe_implausible_depth(ahead_.back().frame.depth_mm, info_.depth_unit_mm))
+      info_.notes.push_back(*std::move(note));
   }
+
   const SourceInfo& info() const override { return info_; }
+
   ReadResult read(Frame& frame, std::chrono::milliseconds timeout) override {
-    return source_->read(frame, timeout);
+    if (ahead_.empty()) return source_->read(frame, timeout);
+    std::swap(frame, ahead_.front().frame);
+    ReadResult result = std::move(ahead_.front().result);
+    ahead_.pop_front();
+    ++next_;
+    return result;
   }
-  void seek(std::int64_t index) override { source_->seek(index); }
+
+  void seek(std::int64_t index) override {
+    if (!ahead_.empty() && index == next_) return;
+    ahead_.clear();
+    source_->seek(index);
+  }
+
   SourceState state() const override { return source_->state(); }
   void interrupt() noexcept override { source_->interrupt(); }
 
  private:
+  struct Taken {
+    Frame frame;
+    ReadResult result;
+  };
+
   std::unique_ptr<FrameSource> source_;
   SourceInfo info_;
+  std::deque<Taken> ahead_;
+  std::int64_t next_ = 0;  // the position of the first of ahead_
 };
-
-// Looks at the first usable frame of a file: depth in a wrong unit gives an empty map without a word.
-std::unique_ptr<FrameSource> check_depth(std::unique_ptr<FrameSource> source) {
-  constexpr int kTries = 3;
-  if (!source->info().has_depth || source->info().live) return source;
-  Frame frame;
-  ReadResult result{ReadStatus::rejected, {}};
-  for (int i = 0; i < kTries && result.status == ReadStatus::rejected; ++i)
-    result = source->read(frame, std::chrono::milliseconds(0));
-  source->seek(0);
-  if (result.status != ReadStatus::frame) return source;
-  auto note = describe_implausible_depth(frame.depth_mm, source->info().depth_unit_mm);
-  return note ? std::make_unique<NotedSource>(std::move(source), *std::move(note)) : std::move(source);
-}
 
 }  // namespace
 
@@ -93,8 +121,12 @@ std::unique_ptr<FrameSource> open_source(const std::string& uri, const SourceOpt
   try {
     const SourceKind* kind = kind_of(input);
     if (kind == nullptr) throw not_recognised(input);
+    check_input_settings(*kind, options.input, uri);
     auto source = kind->open(input, options);
-    return kind->is_path ? check_depth(std::move(source)) : std::move(source);
+    if (options.input.depth_unit_mm > 0 && !source->info().has_depth)
+      throw usage_error("--depth-unit has no effect on this source", uri, "it has no depth; leave it out");
+    if (!kind->is_path || !source->info().has_depth) return source;
+    return std::make_unique<ExaminedSource>(std::move(source));
   } catch (const fs::filesystem_error& error) {
     throw unreadable("cannot list the folder: " + error.code().message(), error.path1().string(),
                      "check its permissions");

@@ -11,7 +11,7 @@ namespace saccade {
 
 /// Opens what a user names as SOURCE: the first kind of source_kinds() that recognises it. Throws Error:
 /// (unreadable) there is no such source, no kind recognises it, or it cannot be read; (usage) the text has a
-/// mistake, or the kind is not in this build.
+/// mistake, the kind is not in this build, or one of the InputSettings has no effect on the source.
 std::unique_ptr<FrameSource> open_source(const std::string& uri, const SourceOptions& options = {});
 
 /// True if a file's name ends like a source: for lists from which a user chooses. Does not look at the disk.

@@ -13,6 +13,7 @@
 #include "core/file.hpp"
 #include "sources/folder_files.hpp"
 #include "sources/numbered_frames.hpp"
+#include "sources/poses_file.hpp"
 
 namespace saccade {
 namespace fs = std::filesystem;
@@ -110,6 +111,13 @@ FolderListing list_paired(const fs::path& folder) {
     numbered.emplace(number && *number >= next ? *number : next, std::move(entry));
   }
   FolderListing listing = list_by_number(std::move(numbered));
+  const fs::path trajectory = folder / "trajectory.log";
+  if (!posed && is_there(trajectory))
+    for (const auto& [position, pose] : read_trajectory(trajectory))
+      if (position < std::ssize(listing.entries)) {
+        listing.entries[static_cast<std::size_t>(position)].camera_to_world = pose;
+        posed = true;
+      }
   listing.sequence = posed;
   listing.camera = find_camera(folder);
   listing.colours_are_labels = true;

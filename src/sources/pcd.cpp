@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <charconv>
 #include <cmath>
 #include <cstring>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -13,6 +15,7 @@
 #include <fmt/format.h>
 
 #include "core/image_size.hpp"
+#include "oni/bytes.hpp"
 #include "sources/cloud_camera.hpp"
 #include "sources/cloud_values.hpp"
 #include "sources/lzf.hpp"
@@ -39,6 +42,7 @@ struct Header {
   std::string encoding;
   std::size_t data_begin = 0;
   std::array<std::size_t, 3> xyz{};  // indices of the fields
+  std::optional<std::size_t> rgb;    // likewise
 };
 
 std::runtime_error broken(const std::string& why) { return std::runtime_error("not a sound PCD: " + why); }
@@ -115,6 +119,11 @@ void check_header(Header& header) {
       throw broken(fmt::format("field {} is not one float of 4 or 8 bytes", name));
     header.xyz[axis] = static_cast<std::size_t>(field - header.fields.begin());
   }
+  const auto is_colour = [](const Field& f) {
+    return (f.name == "rgb" || f.name == "rgba") && f.size == 4 && f.count == 1;
+  };
+  const auto colour = std::ranges::find_if(header.fields, is_colour);
+  if (colour != header.fields.end()) header.rgb = static_cast<std::size_t>(colour - header.fields.begin());
 }
 
 string_view text_of(Bytes bytes) { return {reinterpret_cast<const char*>(bytes.data()), bytes.size()}; }
@@ -136,20 +145,34 @@ Header read_header(Bytes pcd) {
   return header;
 }
 
-using Points = std::vector<cv::Point3d>;
+struct Points {
+  std::vector<cv::Point3d> places;
+  std::vector<cv::Vec3b> colours;  // BGR; empty = none
+
+  explicit Points(const Header& header) : places(header.points), colours(header.rgb ? header.points : 0) {}
+};
+
+cv::Vec3b colour_of(std::uint32_t rgb) {
+  return {static_cast<std::uint8_t>(rgb), static_cast<std::uint8_t>(rgb >> 8),
+          static_cast<std::uint8_t>(rgb >> 16)};
+}
 
 // The data have the fields of one point side by side, or (by_field) all values of one field side by side.
 Points read_binary(const Header& header, Bytes data, bool by_field) {
   if (data.size() < header.points * header.point_bytes) throw broken("the file is cut");
-  Points points(header.points);
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const auto value = [&](std::size_t axis) {
+  Points points(header);
+  const auto value_of = [&](const Field& field, std::size_t point) {
+    return data.data() + (by_field ? field.offset * header.points + point * field.size
+                                   : point * header.point_bytes + field.offset);
+  };
+  for (std::size_t i = 0; i < points.places.size(); ++i) {
+    const auto coordinate = [&](std::size_t axis) {
       const Field& field = header.fields[header.xyz[axis]];
-      const std::size_t offset =
-          by_field ? field.offset * header.points + i * field.size : i * header.point_bytes + field.offset;
-      return float_at(data.data() + offset, field.size);
+      return float_at(value_of(field, i), field.size);
     };
-    points[i] = {value(0), value(1), value(2)};
+    points.places[i] = {coordinate(0), coordinate(1), coordinate(2)};
+    if (header.rgb)
+      points.colours[i] = colour_of(load_le<std::uint32_t>(value_of(header.fields[*header.rgb], i)));
   }
   return points;
 }
@@ -177,15 +200,28 @@ double parse_number(string_view word) {
   return value;
 }
 
+// The colour of a word: an integer, or (TYPE F) a float with the bits of one.
+std::uint32_t parse_rgb(const Field& field, string_view word) {
+  const double value = parse_number(word);
+  if (field.type == 'F') return std::bit_cast<std::uint32_t>(static_cast<float>(value));
+  return value >= 0 && value < 0x1p32 ? static_cast<std::uint32_t>(value) : 0;
+}
+
 Points read_ascii(const Header& header, string_view text) {
-  std::array<std::size_t, 3> columns{};
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    for (std::size_t i = 0; i < header.xyz[axis]; ++i) columns[axis] += header.fields[i].count;
-  const std::size_t last = *std::max_element(columns.begin(), columns.end());
+  std::vector<std::size_t> columns;  // of the fields
+  std::size_t next = 0;
+  for (const Field& field : header.fields) {
+    columns.push_back(next);
+    next += field.count;
+  }
+  const std::array<std::size_t, 3> xyz = {columns[header.xyz[0]], columns[header.xyz[1]],
+                                          columns[header.xyz[2]]};
+  std::size_t last = std::ranges::max(xyz);
+  if (header.rgb) last = std::max(last, columns[*header.rgb]);
   if (text.size() / 2 < header.points) throw broken("the file is cut");  // before memory is allocated for it
-  Points points(header.points);
+  Points points(header);
   std::size_t begin = 0;
-  for (cv::Point3d& point : points) {
+  for (std::size_t i = 0; i < points.places.size(); ++i) {
     std::vector<string_view> words;
     while (words.empty()) {  // blank lines do not count
       if (begin >= text.size()) throw broken("the file is cut");
@@ -194,8 +230,10 @@ Points read_ascii(const Header& header, string_view text) {
       begin = end + 1;
     }
     if (words.size() <= last) throw broken("a line has too few numbers");
-    point = {parse_number(words[columns[0]]), parse_number(words[columns[1]]),
-             parse_number(words[columns[2]])};
+    points.places[i] = {parse_number(words[xyz[0]]), parse_number(words[xyz[1]]),
+                        parse_number(words[xyz[2]])};
+    if (header.rgb)
+      points.colours[i] = colour_of(parse_rgb(header.fields[*header.rgb], words[columns[*header.rgb]]));
   }
   return points;
 }
@@ -214,9 +252,13 @@ cv::Size read_pcd_size(Bytes pcd) { return read_header(pcd).size; }
 OrganisedCloud read_pcd(Bytes pcd) {
   const Header header = read_header(pcd);
   const Points points = read_points(header, pcd.subspan(header.data_begin));
-  OrganisedCloud cloud{cv::Mat1f(header.size), fit_camera(points, header.size)};
-  std::transform(points.begin(), points.end(), cloud.depth_mm.begin(),
-                 [](const cv::Point3d& p) { return is_seen(p) ? static_cast<float>(p.z * 1000) : 0.0F; });
+  OrganisedCloud cloud{cv::Mat1f(header.size), {}, fit_camera(points.places, header.size)};
+  std::ranges::transform(points.places, cloud.depth_mm.begin(), [](const cv::Point3d& p) {
+    return is_seen(p) ? static_cast<float>(p.z * 1000) : 0.0F;
+  });
+  if (points.colours.empty()) return cloud;
+  cloud.colour.create(header.size);
+  std::ranges::copy(points.colours, cloud.colour.begin());
   return cloud;
 }
 

@@ -13,6 +13,7 @@ namespace saccade {
 /// An organised point cloud: one point per pixel.
 struct OrganisedCloud {
   cv::Mat1f depth_mm;                    ///< H x W, z of the points, 0 = no reading
+  cv::Mat3b colour;                      ///< H x W, BGR; black where there is no point; empty = none
   std::optional<Intrinsics> intrinsics;  ///< fit_camera() of the points
 };
 
@@ -21,8 +22,9 @@ struct OrganisedCloud {
 cv::Size read_pcd_size(std::span<const std::uint8_t> pcd);
 
 /// Reads a PCD file (version 0.7 of the Point Cloud Library; DATA ascii, binary or binary_compressed) with
-/// the fields x, y and z in metres in camera frame, each a float of 4 or 8 bytes; other fields are skipped. A
-/// point that is not seen (is_seen()) is no reading. Throws std::runtime_error with the reason, also for a
+/// the fields x, y and z in metres in camera frame, each a float of 4 or 8 bytes, and optionally rgb or rgba,
+/// 0xAARRGGBB in 4 bytes of any type; other fields are skipped. A point that is not seen (is_seen()) is no
+/// reading; its colour counts. Throws std::runtime_error with the reason, also for a
 /// truncated file. Memory is bounded by the sizes of the file and of the image.
 OrganisedCloud read_pcd(std::span<const std::uint8_t> pcd);
 

@@ -32,6 +32,8 @@ struct Header {
   std::optional<Intrinsics> camera;
   std::size_t vertices = 0, vertex_bytes = 0, data_begin = 0;
   std::array<Coordinate, 3> xyz;
+  std::array<std::optional<std::size_t>, 3> bgr;  // positions of bytes
+  bool has_colour() const { return bgr[0] && bgr[1] && bgr[2]; }
   bool binary = false, in_vertex = false, has_vertex = false;
 };
 
@@ -77,6 +79,10 @@ void read_property(Header& header, const std::vector<string_view>& words) {
         throw broken("x, y and z must be floats");
       header.xyz[axis] = {header.vertex_bytes, bytes};
     }
+  constexpr std::array<string_view, 3> kBgr = {"blue", "green", "red"};
+  for (std::size_t channel = 0; channel < 3; ++channel)
+    if (words[2] == kBgr[channel] && (words[1] == "uchar" || words[1] == "uint8"))
+      header.bgr[channel] = header.vertex_bytes;
   header.vertex_bytes += bytes;
   if (header.vertex_bytes > kLargestVertex) throw broken("a vertex is too large");
 }
@@ -146,7 +152,8 @@ OrganisedCloud read_ply(Bytes ply) {
   if (data.size() / std::max<std::size_t>(header.vertex_bytes, 1) < header.vertices)
     throw broken("the file is cut");
   const Intrinsics& camera = header.camera.value();
-  OrganisedCloud cloud{cv::Mat1f(header.size, 0.0F), camera};
+  OrganisedCloud cloud{cv::Mat1f(header.size, 0.0F), {}, camera};
+  if (header.has_colour()) cloud.colour = cv::Mat3b(header.size, cv::Vec3b(0, 0, 0));
   for (std::size_t i = 0; i < header.vertices; ++i) {
     const std::uint8_t* vertex = data.data() + i * header.vertex_bytes;
     const double x = value(vertex, header.xyz[0]), y = value(vertex, header.xyz[1]),
@@ -156,7 +163,10 @@ OrganisedCloud read_ply(Bytes ply) {
     const double row = std::round(y / z * camera.fy + camera.cy);
     if (!(col >= 0 && col < header.size.width && row >= 0 && row < header.size.height))
       throw broken("a point is outside of its image");
-    cloud.depth_mm(static_cast<int>(row), static_cast<int>(col)) = static_cast<float>(z);
+    const cv::Point pixel(static_cast<int>(col), static_cast<int>(row));
+    cloud.depth_mm(pixel) = static_cast<float>(z);
+    if (header.has_colour())
+      cloud.colour(pixel) = {vertex[*header.bgr[0]], vertex[*header.bgr[1]], vertex[*header.bgr[2]]};
   }
   return cloud;
 }

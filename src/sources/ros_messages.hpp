@@ -7,8 +7,8 @@
 
 #include <opencv2/core.hpp>
 
-#include "core/intrinsics.hpp"
 #include "sources/bag_file.hpp"
+#include "sources/colour_registration.hpp"
 
 namespace saccade {
 
@@ -34,11 +34,29 @@ RosImage read_ros_image_header(std::span<const std::uint8_t> message, const BagT
 /// Throws std::runtime_error with the reason.
 RosImage read_ros_image(std::span<const std::uint8_t> message, const BagTopic& topic);
 
-/// The camera of a sensor_msgs/CameraInfo; std::nullopt if it names none. Throws std::runtime_error.
-std::optional<Intrinsics> read_ros_camera(std::span<const std::uint8_t> message, const BagTopic& topic);
+/// A sensor_msgs/CameraInfo. Both cameras are of the images as they were sent: binned, and the part of the
+/// sensor that was read.
+struct RosCamera {
+  LensCamera lens;                ///< of raw images; all distortion 0 if its model is another one
+  Intrinsics rectified;           ///< of images whose distortion was taken out; not valid(): none is named
+  std::string distortion_model;   ///< "plumb_bob", "rational_polynomial", "equidistant", ...
+  bool distorted = false;         ///< some number of the distortion is not 0
+  bool knows_distortion = false;  ///< the model is that of LensCamera
+};
 
-/// The depth of an image, 0 = no reading; `unit_mm` is that of 16-bit pixels, floats are in metres. Throws
-/// std::runtime_error with the reason.
+/// std::nullopt if the message names no camera. Throws std::runtime_error.
+std::optional<RosCamera> read_ros_camera(std::span<const std::uint8_t> message, const BagTopic& topic);
+
+/// The camera of the same images in another size. The borders of the image stay where they are, so that the
+/// centre of the top-left pixel moves.
+Intrinsics scaled_camera(const Intrinsics& camera, double across, double down);
+
+/// The size of a depth image, by its header. Throws std::runtime_error with the reason if it is no depth, its
+/// size is refused by check_image_size(), or its data are too short.
+cv::Size ros_depth_size(const RosImage& image);
+
+/// The depth of an image, 0 = no reading. `unit_mm`: mm of a unit, if a user named it; 0: 16-bit pixels are
+/// in mm and floats in metres. Throws std::runtime_error with the reason.
 void ros_depth(const RosImage& image, double unit_mm, cv::Mat1f& depth_mm);
 
 /// Its colour, BGR. Throws std::runtime_error with the reason.

@@ -37,9 +37,10 @@ struct SourceKind {
   bool (*recognises)(const SourceInput& input) = nullptr;
   /// Throws Error: (unreadable) it cannot be read, (usage) the text has a mistake.
   std::unique_ptr<FrameSource> (*open)(const SourceInput& input, const SourceOptions& options) = nullptr;
-  bool is_path = true;     ///< false: SOURCE names a device or a scene, not files
-  bool is_device = false;  ///< a sensor or a camera
-  bool built = true;       ///< false: this build leaves it out, and open() throws Error (usage)
+  bool is_path = true;      ///< false: SOURCE names a device or a scene, not files; its depth is in mm
+  bool is_device = false;   ///< a sensor or a camera
+  bool has_topics = false;  ///< it may hold several streams, among which InputSettings choose
+  bool built = true;        ///< false: this build leaves it out, and open() throws Error (usage)
 };
 
 /// The ending of a file's name, in lower case with its dot: ".oni"; empty = none.

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <optional>
 #include <sstream>
 
 #include <fmt/format.h>
@@ -9,11 +10,13 @@
 #include "core/file.hpp"
 #include "core/text.hpp"
 #include "sources/folder_source.hpp"
+#include "sources/poses_file.hpp"
 
 namespace saccade {
 namespace fs = std::filesystem;
 namespace {
 
+constexpr const char* kPoses = "groundtruth.txt";
 constexpr const char* kHint = "each line names a time in seconds and a file";
 
 struct TimedFile {
@@ -70,7 +73,9 @@ FolderListing list_tum(const fs::path& folder) {
   std::vector<TimedFile> colour;
   std::error_code code;
   if (fs::exists(folder / "rgb.txt", code)) colour = read_tum_list(folder / "rgb.txt");
-  std::size_t without = 0;
+  std::optional<TimedPoses> poses;
+  if (fs::exists(folder / kPoses, code)) poses.emplace(folder / kPoses);
+  std::size_t without = 0, without_pose = 0;
   for (const TimedFile& file : depth) {
     const double time_us = std::min((file.time_s - depth.front().time_s) * 1e6, kLatest_us);
     FolderEntry entry{file.stamp, std::llround(time_us), file.path, {}, {}};
@@ -79,6 +84,8 @@ FolderListing list_tum(const fs::path& folder) {
       entry.colour = nearest->path;
     else
       ++without;
+    if (poses) entry.camera_to_world = poses->at(file.time_s);
+    if (!entry.camera_to_world) ++without_pose;
     listing.entries.push_back(entry);
   }
   listing.sequence = true;
@@ -87,6 +94,9 @@ FolderListing list_tum(const fs::path& folder) {
   if (!colour.empty() && without > 0)
     listing.notes.push_back(
         fmt::format("{} without a colour image within 20 ms", counted(without, "depth frame")));
+  if (poses && without_pose > 0)
+    listing.notes.push_back(
+        fmt::format("{} without a pose in {}", counted(without_pose, "depth frame"), kPoses));
   return listing;
 }
 

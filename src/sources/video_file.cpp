@@ -26,6 +26,7 @@ namespace {
 
 constexpr const char* kHint = "the file may be truncated or not a video";
 constexpr const char* kBadChecksum = "the file is damaged here: its checksum does not fit";
+constexpr double kDefaultRateHz = 30;
 constexpr std::int64_t kMostLost = 1'000'000;  // positions; times of a damaged file may be anything
 
 thread_local VideoMessages* t_messages = nullptr;
@@ -82,23 +83,21 @@ VideoMessages::VideoMessages() {
 VideoMessages::~VideoMessages() { t_messages = nullptr; }
 
 VideoFile::VideoFile(const fs::path& path, std::string_view title)
-    : packet_(av_packet_alloc()), checksums_(path) {
+    : path_(path), packet_(av_packet_alloc()), checksums_(path) {
   if (!packet_) throw std::bad_alloc();
-  open(path);
-  choose_stream(path, title);
-  const AVRational rate = av_guess_frame_rate(format_.get(), stream_, nullptr);
-  if (const double hz = av_q2d(rate); rate.den != 0 && std::isfinite(hz) && hz > 0) rate_hz_ = hz;
+  open();
+  choose(title);
 }
 
-void VideoFile::open(const fs::path& path) {
+void VideoFile::open() {
   VideoMessages messages;
   Options options;
   options.set("format_whitelist", kVideoFormats);
   options.set("protocol_whitelist", "file");
   AVFormatContext* format = nullptr;
-  int code = avformat_open_input(&format, ("file:" + path.string()).c_str(), nullptr, options.get());
+  int code = avformat_open_input(&format, ("file:" + path_.string()).c_str(), nullptr, options.get());
   if (code == AVERROR(ENOMEM)) throw std::bad_alloc();
-  if (code < 0) throw no_video(code, path);
+  if (code < 0) throw no_video(code, path_);
   format_.reset(format);
   // The codecs that look at the first images must not be led to allocate more, or to start threads.
   std::vector<Options> of_streams(format->nb_streams);
@@ -112,27 +111,41 @@ void VideoFile::open(const fs::path& path) {
   code = lists.empty() ? AVERROR_STREAM_NOT_FOUND : avformat_find_stream_info(format, lists.data());
   for (AVDictionary*& list : lists) av_dict_free(&list);
   if (code == AVERROR(ENOMEM)) throw std::bad_alloc();
-  if (code < 0) throw no_video(code, path);
+  if (code < 0) throw no_video(code, path_);
 }
 
-void VideoFile::choose_stream(const fs::path& path, std::string_view title) {
+void VideoFile::choose(std::string_view title) {
+  title_ = title;
+  stream_ = find_stream(title);
   for (AVStream* stream : streams_of(*format_))
-    if (stream_ == nullptr && !title.empty() && is_video(*stream) && value_of(*stream, "title") == title)
-      stream_ = stream;
+    stream->discard = stream == stream_ ? AVDISCARD_DEFAULT : AVDISCARD_ALL;
+  check_size();
+  rate_hz_ = kDefaultRateHz;
+  const AVRational rate = av_guess_frame_rate(format_.get(), stream_, nullptr);
+  if (const double hz = av_q2d(rate); rate.den != 0 && std::isfinite(hz) && hz > 0) rate_hz_ = hz;
+}
+
+AVStream* VideoFile::find_stream(std::string_view title) const {
   if (title.empty()) {
     VideoMessages messages;
     const int best = av_find_best_stream(format_.get(), AVMEDIA_TYPE_VIDEO, -1, -1, nullptr, 0);
-    if (best < 0) throw no_video(best, path);
-    stream_ = format_->streams[best];
+    if (best < 0) throw no_video(best, path_);
+    return format_->streams[best];
   }
-  if (stream_ == nullptr) throw no_video(AVERROR_STREAM_NOT_FOUND, path);
-  for (AVStream* stream : streams_of(*format_))
-    if (stream != stream_) stream->discard = AVDISCARD_ALL;
-  if (codec().width < 1 || codec().height < 1) throw no_video(AVERROR_INVALIDDATA, path);
+  const auto streams = streams_of(*format_);
+  const auto found = std::ranges::find_if(streams, [&](const AVStream* stream) {
+    return is_video(*stream) && value_of(*stream, "title") == title;
+  });
+  if (found == streams.end()) throw no_video(AVERROR_STREAM_NOT_FOUND, path_);
+  return *found;
+}
+
+void VideoFile::check_size() const {
+  if (codec().width < 1 || codec().height < 1) throw no_video(AVERROR_INVALIDDATA, path_);
   try {
     check_image_size(codec().width, codec().height);
   } catch (const std::runtime_error& error) {
-    throw unreadable(error.what(), path.string(), "reduce the images");
+    throw unreadable(error.what(), path_.string(), "reduce the images");
   }
 }
 
@@ -231,13 +244,22 @@ void VideoFile::look_for_lost_end() {
   if (reason_.empty()) reason_ = "the file is truncated";
 }
 
+// Reads the next packet, if none waits.
+void VideoFile::advance() {
+  if (lost_ > 0 || waiting_ || at_end_) return;
+  waiting_ = read_packet();
+  at_end_ = !waiting_;
+  if (waiting_) look_for_gap();
+  if (at_end_) look_for_lost_end();
+}
+
+const AVPacket* VideoFile::peek() {
+  advance();
+  return lost_ == 0 && waiting_ ? packet_.get() : nullptr;
+}
+
 std::optional<VideoPacket> VideoFile::next() {
-  if (lost_ == 0 && !waiting_ && !at_end_) {
-    waiting_ = read_packet();
-    at_end_ = !waiting_;
-    if (waiting_) look_for_gap();
-    if (at_end_) look_for_lost_end();
-  }
+  advance();
   if (lost_ > 0) {
     --lost_;
     ++count_;

@@ -58,8 +58,14 @@ class VideoFile {
   /// (unreadable): not a video, no such stream, or images that check_image_size() refuses.
   explicit VideoFile(const std::filesystem::path& path, std::string_view title = {});
 
+  const std::filesystem::path& path() const { return path_; }
+  std::string_view title() const { return title_; }  ///< as the stream was chosen; empty: by libavformat
+
   /// The titles of all video streams; empty ones too.
   std::vector<std::string> titles() const;
+
+  /// The stream with that title from now on, before anything was read. Throws Error as the constructor.
+  void choose(std::string_view title);
 
   /// The content of a file that is attached; std::nullopt if there is none of that name.
   std::optional<std::string> attachment(std::string_view name) const;
@@ -81,6 +87,9 @@ class VideoFile {
   /// Whether damage of an image can be noticed by checksums of the container.
   bool has_checksums() const { return checksums_.present(); }
 
+  /// The packet that next() will give; nullptr if that is an image that the file has lost, or the end.
+  const AVPacket* peek();
+
   /// The next position; std::nullopt at the end. Where the file is cut, or so damaged that images are
   /// skipped, a packet with a problem stands for each image that is missing according to the times of the
   /// container.
@@ -94,9 +103,11 @@ class VideoFile {
     void operator()(AVPacket* packet) const { av_packet_free(&packet); }
   };
 
-  void open(const std::filesystem::path& path);
+  void open();
   std::int64_t start() const;  // as start_us(), in the units of the stream
-  void choose_stream(const std::filesystem::path& path, std::string_view title);
+  AVStream* find_stream(std::string_view title) const;
+  void check_size() const;
+  void advance();
   bool read_packet();
   std::int64_t time_of(const AVPacket& packet) const;
   std::int64_t missing_before(std::int64_t time_us) const;
@@ -105,10 +116,12 @@ class VideoFile {
   std::int64_t lost_at_end() const;
   void look_for_lost_end();
 
+  std::filesystem::path path_;
+  std::string title_;
   std::unique_ptr<AVFormatContext, CloseFormat> format_;
   std::unique_ptr<AVPacket, FreePacket> packet_;
   AVStream* stream_ = nullptr;
-  double rate_hz_ = 30;
+  double rate_hz_ = 0;
   MatroskaChecksums checksums_;
   std::int64_t damaged_clusters_ = 0;  // up to the packet that was read
   bool damaged_ = false;               // its cluster is

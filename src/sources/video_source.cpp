@@ -1,7 +1,6 @@
 // Video files: depth with colour, or colour alone.
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -12,10 +11,10 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <opencv2/imgproc.hpp>
 
 #include "core/depth_units.hpp"
 #include "core/error.hpp"
+#include "core/fit_colour.hpp"
 #include "sources/azure_recording.hpp"
 #include "sources/colour_video.hpp"
 #include "sources/depth_video.hpp"
@@ -50,7 +49,7 @@ fs::path times_of_video(const fs::path& path) {
 
 // What a source of depth reads.
 struct DepthAndColour {
-  std::function<std::unique_ptr<DepthVideo>()> reopen;  // opens `depth` from its beginning
+  std::string title;  // of the stream of depth, as in VideoFile
   std::unique_ptr<DepthVideo> depth;
   std::unique_ptr<ColourVideo> colour;               // nullptr = none
   std::int64_t colour_delay_us = 0;                  // its first image after that of depth
@@ -65,7 +64,8 @@ class DepthVideoSource final : public FrameSource {
   DepthVideoSource(const SourceInput& input, std::string_view kind, DepthAndColour parts,
                    const InputSettings& settings)
       : times_us_(read_times(times_of_video(input.path))),
-        reopen_(std::move(parts.reopen)),
+        path_(input.path),
+        title_(std::move(parts.title)),
         depth_(std::move(parts.depth)),
         colour_(std::move(parts.colour)),
         colour_delay_us_(parts.colour_delay_us),
@@ -115,17 +115,15 @@ class DepthVideoSource final : public FrameSource {
     }
     if (registration_)
       registration_->apply(frame.depth_mm, colour_image_, frame.colour);
-    else if (colour_image_.size() == info_.size)
-      colour_image_.copyTo(frame.colour);
     else
-      cv::resize(colour_image_, frame.colour, info_.size, 0, 0, cv::INTER_AREA);
+      fit_colour(colour_image_, info_.size, frame.colour);
     return {ReadStatus::frame, ""};
   }
 
  private:
   bool go_to_wanted() {
     if (wanted_ < next_) {
-      depth_ = reopen_();
+      depth_ = open_depth_video(std::make_unique<VideoFile>(path_, title_));
       next_ = 0;
     }
     for (; next_ < wanted_; ++next_)
@@ -135,7 +133,8 @@ class DepthVideoSource final : public FrameSource {
 
   SourceInfo info_;
   std::map<std::int64_t, std::int64_t> times_us_;  // of the list beside it, which is finer than the container
-  std::function<std::unique_ptr<DepthVideo>()> reopen_;
+  fs::path path_;
+  std::string title_;  // of the stream of depth
   std::unique_ptr<DepthVideo> depth_;
   std::unique_ptr<ColourVideo> colour_;
   std::int64_t colour_delay_us_ = 0;
@@ -148,8 +147,8 @@ class DepthVideoSource final : public FrameSource {
 // Colour without depth.
 class ColourVideoSource final : public FrameSource {
  public:
-  ColourVideoSource(const SourceInput& input, std::string_view kind)
-      : path_(input.path), video_(std::make_unique<ColourVideo>(path_)) {
+  ColourVideoSource(const SourceInput& input, std::string_view kind, std::unique_ptr<VideoFile> file)
+      : path_(input.path), video_(std::make_unique<ColourVideo>(std::move(file))) {
     info_.uri = input.uri;
     info_.kind = kind;
     info_.size = video_->size();
@@ -164,7 +163,7 @@ class ColourVideoSource final : public FrameSource {
 
   ReadResult read(Frame& frame, std::chrono::milliseconds) override {
     if (wanted_ < next_) {
-      video_ = std::make_unique<ColourVideo>(path_);
+      video_ = std::make_unique<ColourVideo>(std::make_unique<VideoFile>(path_));
       next_ = 0;
     }
     for (; next_ < wanted_; ++next_)
@@ -198,32 +197,38 @@ std::unique_ptr<ColourVideo> colour_of_video(const fs::path& path) {
   for (const std::string_view ending : kEndings)
     if (const fs::path colour = path.parent_path() / (stem + "_rgb").append(ending);
         fs::is_regular_file(colour, code))
-      return std::make_unique<ColourVideo>(colour);
+      return std::make_unique<ColourVideo>(std::make_unique<VideoFile>(colour));
   return nullptr;
 }
 
-// The streams of one recording. Colour that cannot be read is a note: depth does not need it.
-DepthAndColour parts_of(const fs::path& path, AzureRecording recording) {
+// Depth does not need its colour: if it cannot be read, that is a note.
+template <typename Open>
+void open_colour(DepthAndColour& parts, Open open) {
+  try {
+    parts.colour = open();
+  } catch (const Error& error) {
+    parts.notes.push_back(fmt::format("no colour: {}", error.what()));
+  }
+}
+
+// The streams of one recording.
+DepthAndColour parts_of(std::unique_ptr<VideoFile> file, AzureRecording recording) {
   DepthAndColour parts;
-  parts.reopen = [path] { return open_depth_video(path, kAzureDepth); };
-  parts.depth = parts.reopen();
+  parts.title = kAzureDepth;
+  parts.depth = open_depth_video(std::move(file));
   parts.notes = std::move(recording.notes);
-  if (recording.has_colour) try {
-      parts.colour = std::make_unique<ColourVideo>(path, kAzureColour);
-    } catch (const Error& error) {
-      parts.notes.push_back(fmt::format("no colour: {}", error.what()));
-    }
+  if (recording.colour)
+    open_colour(parts, [&] { return std::make_unique<ColourVideo>(std::move(recording.colour)); });
   parts.colour_delay_us = recording.colour_delay_us;
   parts.registration = std::move(recording.registration);
   parts.camera = recording.camera;
   return parts;
 }
 
-DepthAndColour parts_of(const fs::path& path) {
+DepthAndColour parts_of(std::unique_ptr<VideoFile> file) {
   DepthAndColour parts;
-  parts.reopen = [path] { return open_depth_video(path); };
-  parts.depth = parts.reopen();
-  if (parts.depth) parts.colour = colour_of_video(path);
+  open_colour(parts, [&] { return colour_of_video(file->path()); });
+  parts.depth = open_depth_video(std::move(file));
   return parts;
 }
 
@@ -238,9 +243,12 @@ extern const SourceKind kVideoKind = {
     .recognised_by = "the ending",
     .endings = kEndings,
     .open = [](const SourceInput& input, const SourceOptions& options) -> std::unique_ptr<FrameSource> {
-      auto recording = read_azure_recording(input.path);
-      DepthAndColour parts = recording ? parts_of(input.path, std::move(*recording)) : parts_of(input.path);
-      if (!parts.depth) return std::make_unique<ColourVideoSource>(input, kVideoKind.name);
+      auto file = std::make_unique<VideoFile>(input.path);
+      auto recording = read_azure_recording(*file);
+      if (!recording && !holds_depth(*file))
+        return std::make_unique<ColourVideoSource>(input, kVideoKind.name, std::move(file));
+      DepthAndColour parts =
+          recording ? parts_of(std::move(file), std::move(*recording)) : parts_of(std::move(file));
       return std::make_unique<DepthVideoSource>(input, kVideoKind.name, std::move(parts), options.input);
     },
 };

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <set>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 #include <opencv2/core.hpp>
@@ -84,9 +85,51 @@ TEST_F(ExportTest, OtherFormatsKeepDepthAndTimesToo) {
   for (const std::string format : {"tum", "video", "ply", "pcd"}) {
     SCOPED_TRACE(format);
     export_as(kTable, format, piece);
-    const bool cloud = format == "ply" || format == "pcd";
     expect_same(before, read_all(format == "video" ? in("video/frames_depth.mkv") : in(format)),
-                format == "tum" ? Times::from_first : Times::absolute, !cloud);
+                format == "tum" ? Times::from_first : Times::absolute, format != "ply");
+  }
+}
+
+// A PLY has a point, and so a colour, for each reading.
+TEST_F(ExportTest, PlyKeepsTheColourOfEachPoint) {
+  export_as(kTable, "ply", {"--frames", "2"});
+  const auto before = read_all(kTable), after = read_all(in("ply"));
+  for (std::size_t i = 0; i < 2; ++i) {
+    cv::Mat3b expected = before[i].colour.clone();
+    expected.setTo(cv::Scalar::all(0), before[i].depth_mm == 0);
+    EXPECT_EQ(cv::norm(expected, after[i].colour, cv::NORM_INF), 0);
+    EXPECT_GT(cv::norm(after[i].colour, cv::NORM_INF), 0);
+  }
+}
+
+TEST_F(ExportTest, WithoutColourThereIsNoneInAnyFormat) {
+  run({"record", "synthetic:cone?size=80x60&frames=2&noise=kinect", in("a.oni"), "--colour-codec", "off"});
+  for (const std::string format : {"folder", "tum", "video", "ply", "pcd"}) {
+    SCOPED_TRACE(format);
+    export_as(in("a.oni"), format);
+    expect_same(read_all(in("a.oni")),
+                read_all(format == "video" ? in("video/frames_depth.mkv") : in(format)));
+  }
+}
+
+// Lost cameras too: the second of these frames has no pose.
+TEST_F(ExportTest, PosesComeBack) {
+  fs::create_directory(folder_ / "walk");
+  for (const char* name : {"walk/0_depth.png", "walk/1_depth.png", "walk/2_depth.png"})
+    write_file(in(name), encode_png(cv::Mat1w(12, 16, std::uint16_t{1000})));
+  const std::string none = "nan nan nan nan nan nan nan nan nan nan nan nan nan nan nan nan\n";
+  write_file(in("walk/poses.txt"), none + "0.6 0 0.8 1.5 0 1 0 -2 -0.8 0 0.6 0.25 0 0 0 1\n" + none);
+  const auto before = read_all(in("walk"));
+  for (const std::string format : {"folder", "tum"}) {
+    SCOPED_TRACE(format);
+    export_as(in("walk"), format);
+    const auto after = read_all(in(format));
+    ASSERT_EQ(after.size(), 3U);
+    EXPECT_FALSE(after[0].truth.camera_to_world);
+    ASSERT_TRUE(after[1].truth.camera_to_world);
+    EXPECT_LT(cv::norm(before[1].truth.camera_to_world->matrix, after[1].truth.camera_to_world->matrix),
+              2e-3);
+    EXPECT_FALSE(after[2].truth.camera_to_world);
   }
 }
 
@@ -221,6 +264,30 @@ TEST_F(ExportTest, OpenCvReadsTheSamePng) {
   const auto frames = read_all(kTable);
   EXPECT_EQ(outcome.out,
             "uint16 " + std::to_string(static_cast<std::int64_t>(cv::sum(frames[0].depth_mm)[0])) + "\n");
+}
+
+// Points and colours as Open3D reads them: the depth is z, in mm and m.
+TEST_F(ExportTest, Open3dReadsTheSameClouds) {
+  if (std::system("/usr/bin/python3 -c 'import open3d' > /dev/null 2>&1") != 0)
+    GTEST_SKIP() << "python3-open3d is not installed";
+  export_as(kTable, "ply", {"--frames", "1"});
+  export_as(kTable, "pcd", {"--frames", "1"});
+  const char* script =
+      "import numpy, open3d, sys\n"
+      "for name in sys.argv[1:]:\n"
+      "    cloud = open3d.io.read_point_cloud(name, remove_nan_points=True)\n"
+      "    z = numpy.asarray(cloud.points)[:, 2] * (1000 if name.endswith('pcd') else 1)\n"
+      "    rgb = numpy.rint(numpy.asarray(cloud.colors) * 255).astype(int)\n"
+      "    print(len(z), int(numpy.rint(z).sum()), *rgb.sum(axis=0))\n";
+  const ProgramResult outcome =
+      run_program("/usr/bin/python3", {"-c", script, in("ply/000000_cloud.ply"), in("pcd/000000_cloud.pcd")});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const Frame frame = read_all(kTable).front();
+  const cv::Mat points = frame.depth_mm > 0;
+  const cv::Scalar bgr = cv::mean(frame.colour, points) * cv::countNonZero(points);
+  const std::string line = fmt::format("{} {:.0f} {:.0f} {:.0f} {:.0f}\n", cv::countNonZero(points),
+                                       cv::sum(frame.depth_mm)[0], bgr[2], bgr[1], bgr[0]);
+  EXPECT_EQ(outcome.out, line + line);
 }
 
 }  // namespace

@@ -124,7 +124,8 @@ std::vector<Bytes> pcd_seeds() {
   depth(3, 4) = 0;
   std::vector<Bytes> seeds;
   for (const PcdEncoding encoding : {PcdEncoding::ascii, PcdEncoding::binary, PcdEncoding::compressed})
-    seeds.push_back(write_pcd(depth, {20, 20, 7.5, 5.5}, encoding));
+    seeds.push_back(
+        write_pcd(depth, {20, 20, 7.5, 5.5}, encoding, cv::Mat3b(depth.size(), cv::Vec3b(1, 2, 3))));
   return seeds;
 }
 

@@ -60,14 +60,16 @@ Bytes words(const std::vector<std::uint16_t>& values) {
 }
 
 TEST_F(RecordingTest, DepthUnitsBecomeMillimetres) {
-  const Bytes payload = words({0, 1, 9, 10, 11, 12345, 65535, 3, 4, 5, 6, 7});
+  const Bytes payload = words({0, 1, 9, 10, 11, 12345, 65535, 65534, 4, 5, 6, 7});
   const cv::Mat1f mm = depth_of(make({}, {payload}));
   EXPECT_EQ(mm.size(), cv::Size(4, 3));
   EXPECT_EQ(mm(1, 1), 12345.0f);
-  EXPECT_EQ(mm(1, 2), 65535.0f);
+  EXPECT_EQ(mm(1, 2), 0.0f) << "no reading";
+  EXPECT_EQ(mm(1, 3), 65534.0f);
   const cv::Mat1f tenths = depth_of(make({.pixels = OniPixelFormat::depth_100um}, {payload}));
   EXPECT_EQ(tenths(0, 2), 0.9f);
-  EXPECT_EQ(tenths(1, 2), 6553.5f);
+  EXPECT_EQ(tenths(1, 2), 0.0f);
+  EXPECT_EQ(tenths(1, 3), 6553.4f);
 }
 
 TEST_F(RecordingTest, ShiftsAreConvertedByTheirTable) {
@@ -75,12 +77,13 @@ TEST_F(RecordingTest, ShiftsAreConvertedByTheirTable) {
   const Bytes payload = words({0, 1, 2, 3, 2047, 4, 65535, 0, 0, 0, 0, 1});
   const auto file = make(stream, {payload}, [](OniRecordWriter& writer) {
     writer.add_property(1, OniRecordType::general_property, oni_property::kShiftToDepth,
-                        words({0, 500, 600, 700}));
+                        words({0, 500, 600, 700, 65535}));
   });
   const cv::Mat1f mm = depth_of(file);
   EXPECT_EQ(mm(0, 1), 500.0f);
   EXPECT_EQ(mm(0, 3), 700.0f);
   EXPECT_EQ(mm(1, 0), 0.0f) << "a shift beyond the table is no reading";
+  EXPECT_EQ(mm(1, 1), 0.0f) << "nor is 65535 in the table a length";
   EXPECT_EQ(mm(1, 2), 0.0f);
   EXPECT_THAT(read_frame(make(stream, {payload})).reason(), HasSubstr("S2D"));
 }

@@ -80,7 +80,7 @@ TEST_F(StockPlayer, PlaysFineUnitsAndLargeDepths) {
   OniWriter writer(path("far.oni"), {});
   Frame frame = test_frame(0, {80, 60}, false);
   for (int k = 0; k < 3; ++k) {
-    frame.depth_mm(10 + k, 20) = 65535.0f;
+    frame.depth_mm(10 + k, 20) = 65534.0f;
     frame.depth_mm(30, 20 + k) = 40000.0f;
     writer.write(frame);
   }

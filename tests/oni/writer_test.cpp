@@ -70,16 +70,19 @@ TEST_F(OniWriterTest, AFileThatIsDeletedMeanwhileIsAnError) {
   EXPECT_THROW(writer.close(), Error);
 }
 
-TEST_F(OniWriterTest, EveryDepthUpTo65535IsKept) {
+// 65535 stands for no reading, and so cannot be stored as a length.
+TEST_F(OniWriterTest, EveryDepthUpTo65534IsKept) {
   Frame frame = test_frame(0, {256, 256}, false);
   for (int i = 0; i < 65536; ++i) frame.depth_mm(i / 256, i % 256) = static_cast<float>(i);
   OniWriter writer(path("all.oni"), {.depth_codec = OniDepthCodec::none});
   writer.write(frame);
   writer.close();
   EXPECT_EQ(writer.counts().rounded, 0u);
+  EXPECT_EQ(writer.counts().out_of_range_pixels, 1u);
   Recording recording(path("all.oni"));
   cv::Mat1f depth;
   ASSERT_TRUE(succeeded(recording.read_depth(*main_depth(recording), 0, depth)));
+  frame.depth_mm(255, 255) = 0;
   EXPECT_TRUE(equal(depth, frame.depth_mm));
 }
 

@@ -11,9 +11,11 @@
 
 #include "azure_calibration.hpp"
 #include "core/error.hpp"
+#include "core/file.hpp"
 #include "matroska_writer.hpp"
 #include "sources/open_source.hpp"
 #include "tests/support/no_wait.hpp"
+#include "tests/support/subprocess.hpp"
 #include "video_files.hpp"
 
 namespace saccade {
@@ -82,6 +84,7 @@ class AzureRecordingTest : public VideoFiles {
     if (options.colour) tracks.push_back(colour);
     if (options.depth) tracks.push_back(depth);
     if (options.infrared) tracks.push_back(infrared);
+    tracks.push_back({"IMU", 0, {}, 0, 0, 10, std::vector<std::vector<std::uint8_t>>(18, {1, 2, 3, 4})});
     std::vector<MatroskaAttachment> attachments;
     if (!options.calibration.empty()) attachments.push_back({"calibration.json", options.calibration});
     write_matroska(path("azure.mkv"), tracks, attachments);
@@ -198,6 +201,38 @@ TEST_F(AzureRecordingTest, StreamsThatBeginApartArePairedByTheTimesOfTheFile) {
         frame.colour.empty() ? -1 : cvRound(cv::mean(frame.colour(cv::Rect(120, 120, 60, 60)))[2] / 40));
   }
   EXPECT_THAT(colours, ::testing::ElementsAre(-1, -1, 0, 1, 2, 3));
+}
+
+// A second opinion, by a program that knows nothing of this one. It knows the codec as uncompressed pixels.
+TEST_F(AzureRecordingTest, DepthIsThatOfFfmpeg) {
+  if (run_program("ffmpeg", {"-version"}).status != 0) GTEST_SKIP() << "ffmpeg is not installed";
+  const std::string file = write({}), raw = path("raw").string();
+  const ProgramResult decoded = run_program("ffmpeg", {"-v", "error", "-i", file, "-map", "0:m:title:DEPTH",
+                                                       "-f", "rawvideo", "-pix_fmt", "gray16le", raw});
+  ASSERT_EQ(decoded.status, 0) << decoded.err;
+  const auto bytes = read_file(raw);
+  const auto pixels = static_cast<std::size_t>(kDepthSize.area());
+  ASSERT_EQ(bytes.size(), 2 * pixels * kFrames);
+  const auto source = open_source(file);
+  Frame frame;
+  for (std::size_t k = 0; k < kFrames; ++k) {
+    ASSERT_EQ(source->read(frame, kNoWait).status, ReadStatus::frame);
+    const cv::Mat stored(kDepthSize, CV_16UC1, const_cast<std::uint8_t*>(bytes.data() + 2 * pixels * k));
+    cv::Mat1f expected;
+    stored.convertTo(expected, CV_32F);
+    EXPECT_EQ(cv::norm(frame.depth_mm, expected, cv::NORM_INF), 0) << k;
+  }
+}
+
+// Once for its kind, and once for each of the two streams that are read.
+TEST_F(AzureRecordingTest, TheFileIsOpenedOnceForEachStream) {
+  const std::string file = write({});
+  FileWatch watch(file);
+  const auto source = open_source(file);
+  Frame frame;
+  ASSERT_EQ(source->read(frame, kNoWait).status, ReadStatus::frame);
+  EXPECT_EQ(watch.closed(), 1);
+  EXPECT_EQ(watch.open(), 4) << "packets and their checksums";
 }
 
 TEST_F(AzureRecordingTest, DepthNeedsNoColour) {

@@ -9,6 +9,7 @@
 #include "bag_writer.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
+#include "core/fit_colour.hpp"
 #include "core/png.hpp"
 #include "sources/open_source.hpp"
 #include "tests/support/folder_test.hpp"
@@ -20,8 +21,10 @@ namespace saccade {
 namespace {
 
 namespace fs = std::filesystem;
+using ::testing::AllOf;
 using ::testing::Contains;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 constexpr std::int64_t kBegin_ns = 1'700'000'000'000'000'000;
 const Intrinsics kCamera{500.5, 501.5, 8.25, 5.75, IntrinsicsOrigin::file};
@@ -164,6 +167,18 @@ TEST_F(BagSourceTest, OtherEncodingsAreRead) {
   EXPECT_EQ(frame.depth_mm(5, 5), static_cast<float>(depth_image(0)(5, 5)));
 }
 
+TEST_F(BagSourceTest, DepthAsACompressedImageIsRead) {
+  const MessageWriter writer(false);
+  write_ros1_bag(folder_ / "a.bag",
+                 {writer.compressed("/depth/image_raw/compressed", 5, "16UC1; png compressed ",
+                                    encode_png(depth_image(2)))},
+                 "none");
+  Frame frame;
+  ASSERT_EQ(open_source(in("a.bag"))->read(frame, kNoWait).status, ReadStatus::frame);
+  EXPECT_EQ(frame.depth_mm(5, 5), static_cast<float>(depth_image(2)(5, 5)));
+  EXPECT_EQ(frame.depth_mm(0, 1), 0);
+}
+
 std::vector<std::uint8_t> rvl_message(const cv::Mat1w& image) {
   std::vector<std::uint8_t> data(12, 0);
   for (const int size : {image.cols, image.rows})
@@ -239,6 +254,101 @@ TEST_F(BagSourceTest, ASplitRecordingIsOne) {
     EXPECT_EQ(source->info().frame_count, 2);
     EXPECT_THAT(source->info().notes, Contains(HasSubstr("walk_10")));
   }
+}
+
+class BagCameraTest : public BagSourceTest {
+ protected:
+  std::unique_ptr<FrameSource> open(const std::string& topic, cv::Size size, const TestLens& lens) const {
+    const MessageWriter writer(true);
+    write_mcap(folder_ / "camera.mcap",
+               {writer.camera("/depth/camera_info", 5, size, {400, 410, 7, 5, IntrinsicsOrigin::file}, lens),
+                writer.image(topic, 5, depth_image(0), "16UC1")},
+               "");
+    return open_source(in("camera.mcap"));
+  }
+  static constexpr Intrinsics kRectified{390, 395, 7.5, 5.5, IntrinsicsOrigin::file};
+};
+
+TEST_F(BagCameraTest, DistortionThatStaysIsSaid) {
+  EXPECT_THAT(open("/depth/image_raw", {16, 12}, {})->info().notes, Not(Contains(HasSubstr("distortion"))));
+  // k1 moves the corner, 10 px from the centre, by k1 r2 of that, r2 = (8/400)^2 + (6/410)^2 = 0.00061.
+  const TestLens strong{.distortion = {1000, 0, 0, 0, 0}, .rectified = kRectified};
+  const auto raw = open("/depth/image_raw", {16, 12}, strong);
+  EXPECT_EQ(raw->info().intrinsics.fx, 400);
+  EXPECT_THAT(raw->info().notes,
+              Contains("the distortion of the depth camera's lens stays in the depth; at the "
+                       "border it is up to 6 pixels"));
+  const TestLens fisheye{.model = "equidistant", .distortion = {0.1, 0, 0, 0}};
+  EXPECT_THAT(open("/depth/image_raw", {16, 12}, fisheye)->info().notes,
+              Contains("the distortion of the depth camera's lens (equidistant) stays in the depth"));
+}
+
+TEST_F(BagCameraTest, RectifiedDepthHasAnotherCamera) {
+  const TestLens lens{.distortion = {1000, 0, 0, 0, 0}, .rectified = kRectified};
+  const auto source = open("/depth/image_rect_raw", {16, 12}, lens);
+  EXPECT_EQ(source->info().intrinsics.fx, kRectified.fx);
+  EXPECT_EQ(source->info().intrinsics.fy, kRectified.fy);
+  EXPECT_EQ(source->info().intrinsics.cx, kRectified.cx);
+  EXPECT_EQ(source->info().intrinsics.cy, kRectified.cy);
+  EXPECT_THAT(source->info().notes, Not(Contains(HasSubstr("distortion"))));
+  EXPECT_EQ(open("/depth/image_rect", {16, 12}, {})->info().intrinsics.fx, 400) << "it names none";
+}
+
+TEST_F(BagCameraTest, TheCameraIsThatOfTheImages) {
+  // Every second pixel of the 32 x 24 that begin at (3, 1).
+  const auto binned = open("/depth/image_raw", {64, 48}, {.binning = 2, .part = {3, 1, 32, 24}});
+  EXPECT_EQ(binned->info().intrinsics.fx, 200);
+  EXPECT_EQ(binned->info().intrinsics.cx, (7 - 3 + 0.5) / 2 - 0.5);
+  EXPECT_EQ(binned->info().intrinsics.cy, (5 - 1 + 0.5) / 2 - 0.5);
+  const auto scaled = open("/depth/image_raw", {32, 24}, {});
+  EXPECT_EQ(scaled->info().intrinsics.fy, 205);
+  EXPECT_THAT(scaled->info().notes, Contains(HasSubstr("is of images of 32 x 24 and is scaled")));
+  const auto other = open("/depth/image_raw", {32, 18}, {});
+  EXPECT_EQ(other->info().intrinsics.origin, IntrinsicsOrigin::guess);
+  EXPECT_THAT(other->info().notes, Contains(HasSubstr("not used: it is of images of 32 x 18")));
+}
+
+TEST_F(BagSourceTest, TheUnitOfTheUserHoldsForFloatsToo) {
+  const MessageWriter writer(true);
+  write_mcap(folder_ / "a.mcap", {writer.image("/depth", 5, cv::Mat1f(12, 16, 1500.0F), "32FC1")}, "");
+  Frame frame;
+  const auto source = open_source(in("a.mcap"), {{}, {.depth_unit_mm = 2}});
+  ASSERT_EQ(source->read(frame, kNoWait).status, ReadStatus::frame);
+  EXPECT_EQ(frame.depth_mm(5, 5), 3000);
+  write_mcap(folder_ / "b.mcap", {writer.image("/depth", 5, depth_image(0), "mono16")}, "");
+  ASSERT_EQ(open_source(in("b.mcap"), {{}, {.depth_unit_mm = 2}})->read(frame, kNoWait).status,
+            ReadStatus::frame);
+  EXPECT_EQ(frame.depth_mm(5, 5), 2.0F * depth_image(0)(5, 5));
+}
+
+TEST_F(BagSourceTest, SmallColourIsInterpolatedAsInEverySource) {
+  const MessageWriter writer(true);
+  cv::Mat3b small(3, 4);
+  for (int i = 0; i < 12; ++i) small(i / 4, i % 4) = cv::Vec3b::all(static_cast<std::uint8_t>(20 * i));
+  write_mcap(folder_ / "a.mcap",
+             {writer.image(kDepth, 5, depth_image(0), "16UC1"), writer.image(kColour, 5, small, "bgr8")}, "");
+  Frame frame;
+  ASSERT_EQ(open_source(in("a.mcap"))->read(frame, kNoWait).status, ReadStatus::frame);
+  cv::Mat3b expected;
+  fit_colour(small, {16, 12}, expected);
+  EXPECT_EQ(cv::norm(frame.colour, expected, cv::NORM_INF), 0);
+}
+
+// The recorder of ROS 2 can compress whole files and single messages, which are not read.
+TEST_F(BagSourceTest, OtherCompressionOfRos2IsOneLine) {
+  fs::create_directory(folder_ / "files");
+  write_file(folder_ / "files/metadata.yaml", std::string_view("rosbag2_bagfile_information:\n"));
+  write_file(folder_ / "files/a_0.mcap.zstd", std::string_view("x"));
+  for (const std::string& source : {in("files"), in("files/a_0.mcap.zstd")})
+    EXPECT_THAT(complaint(source, ExitStatus::unreadable),
+                AllOf(HasSubstr("compressed as a whole"), HasSubstr("zstd -d")));
+  write_mcap(folder_ / "files/a_0.mcap", recording(true), "");
+  EXPECT_EQ(open_source(in("files"))->info().frame_count, 4) << "it has been decompressed";
+  TestMessage message = MessageWriter(true).image(kDepth, 5, depth_image(0), "16UC1");
+  message.bytes.insert(message.bytes.begin(), {0x28, 0xB5, 0x2F, 0xFD});
+  write_db3(folder_ / "a.db3", {message});
+  EXPECT_THAT(complaint(in("a.db3"), ExitStatus::unreadable),
+              HasSubstr("its messages are compressed one by one"));
 }
 
 TEST_F(BagSourceTest, TopicsAreChosenByNameOrByTheUser) {

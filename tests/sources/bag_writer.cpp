@@ -247,16 +247,25 @@ TestMessage MessageWriter::compressed(const std::string& topic, std::int64_t sta
 }
 
 TestMessage MessageWriter::camera(const std::string& topic, std::int64_t stamp_ns, cv::Size size,
-                                  const Intrinsics& camera) const {
+                                  const Intrinsics& camera, const TestLens& lens) const {
   Serialiser out(cdr_);
+  const auto integer = [&](int value) { out.number(static_cast<std::uint32_t>(value)); };
+  const auto reals = [&](std::initializer_list<double> values) {
+    for (const double value : values) out.number(value);
+  };
   out.header(stamp_ns);
-  out.number(static_cast<std::uint32_t>(size.height));
-  out.number(static_cast<std::uint32_t>(size.width));
-  out.text("plumb_bob");
-  out.number(std::uint32_t{5});
-  for (int i = 0; i < 5; ++i) out.number(0.1 * i);
-  for (const double k : {camera.fx, 0.0, camera.cx, 0.0, camera.fy, camera.cy, 0.0, 0.0, 1.0}) out.number(k);
-  for (int i = 0; i < 21; ++i) out.number(0.0);  // R, P
+  integer(size.height);
+  integer(size.width);
+  out.text(lens.model);
+  integer(static_cast<int>(lens.distortion.size()));
+  for (const double value : lens.distortion) out.number(value);
+  reals({camera.fx, 0, camera.cx, 0, camera.fy, camera.cy, 0, 0, 1});
+  reals({1, 0, 0, 0, 1, 0, 0, 0, 1});
+  reals({lens.rectified.fx, 0, lens.rectified.cx, 0, 0, lens.rectified.fy, lens.rectified.cy, 0, 0, 0, 1, 0});
+  for (const int value :
+       {lens.binning, lens.binning, lens.part.x, lens.part.y, lens.part.height, lens.part.width})
+    integer(value);
+  out.number(std::uint8_t{0});
   return {topic, "sensor_msgs/CameraInfo", stamp_ns, out.take()};
 }
 

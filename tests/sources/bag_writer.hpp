@@ -18,6 +18,15 @@ struct TestMessage {
   std::vector<std::uint8_t> bytes;
 };
 
+/// What a CameraInfo says beside the matrix K.
+struct TestLens {
+  std::string model = "plumb_bob";
+  std::vector<double> distortion = std::vector<double>(5, 0.0);
+  Intrinsics rectified{};  ///< of the matrix P
+  int binning = 0;
+  cv::Rect part{};
+};
+
 /// Serialises messages as ROS 1 does, or as CDR.
 class MessageWriter {
  public:
@@ -28,8 +37,8 @@ class MessageWriter {
                     const std::string& encoding) const;
   TestMessage compressed(const std::string& topic, std::int64_t stamp_ns, const std::string& format,
                          const std::vector<std::uint8_t>& data) const;
-  TestMessage camera(const std::string& topic, std::int64_t stamp_ns, cv::Size size,
-                     const Intrinsics& camera) const;
+  TestMessage camera(const std::string& topic, std::int64_t stamp_ns, cv::Size size, const Intrinsics& camera,
+                     const TestLens& lens = {}) const;
 
  private:
   bool cdr_;

@@ -8,6 +8,7 @@
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "core/png.hpp"
+#include "pcd_writer.hpp"
 #include "sources/open_source.hpp"
 #include "tests/support/folder_test.hpp"
 #include "tests/support/no_wait.hpp"
@@ -92,6 +93,23 @@ TEST_F(FolderLayouts, ScanNetHasPosesAndColourOfAnotherSize) {
   EXPECT_TRUE(open_source(folder_.string())->info().sequence);
 }
 
+TEST_F(FolderLayouts, ATrajectoryOfOpen3dGivesPosesByPosition) {
+  for (const int i : {0, 1, 2}) {
+    put_depth("depth/0000" + std::to_string(i + 1) + ".png", 1000 + i);
+    put_colour("color/0000" + std::to_string(i + 1) + ".jpg", 10);
+  }
+  put_text("trajectory.log",
+           "0 0 1\n1 0 0 0.5\n0 1 0 0\n0 0 1 2\n0 0 0 1\n2 2 3\n1 0 0 -1\n0 1 0 0\n0 0 1 0\n0 0 0 1\n"
+           "7 7 8\n1 0 0 -1\n0 1 0 0\n0 0 1 0\n0 0 0 1\n");
+  const auto frames = read("paired");
+  ASSERT_EQ(frames.size(), 3U);
+  EXPECT_EQ(frames[0].truth.camera_to_world->translation(), cv::Vec3d(500, 0, 2000));
+  EXPECT_FALSE(frames[1].truth.camera_to_world);
+  EXPECT_EQ(frames[2].truth.camera_to_world->translation(), cv::Vec3d(-1000, 0, 0));
+  put_text("trajectory.log", "0 0 1\n1 0 0 0.5\n");
+  EXPECT_THROW(open_source(folder_.string()), Error);
+}
+
 TEST_F(FolderLayouts, OcidHasLabels) {
   put_depth("depth/result_a.png", 1000);
   put_colour("rgb/result_a.png", 5);
@@ -167,6 +185,28 @@ TEST_F(FolderLayouts, ASinglePngBringsItsColour) {
   ASSERT_EQ(frames.size(), 1U);
   EXPECT_EQ(frames[0].depth_mm(1, 1), 1200);
   EXPECT_NEAR(frames[0].colour(1, 1)[0], 40, 2);
+}
+
+// The colour of an image beside a cloud, else that of its points. A depth image beside it is no colour.
+TEST_F(FolderLayouts, CloudsBringTheirColour) {
+  const Intrinsics camera{20, 20, 7.5, 5.5, IntrinsicsOrigin::file};
+  const cv::Mat1f depth(12, 16, 1500.0F);
+  const cv::Mat3b own(12, 16, cv::Vec3b(1, 2, 3));
+  const auto put_cloud = [&](const std::string& name, const cv::Mat3b& colour) {
+    fs::create_directories((folder_ / name).parent_path());
+    write_file(folder_ / name, write_pcd(depth, camera, PcdEncoding::binary, colour));
+  };
+  put_cloud("a/table_1.pcd", own);
+  put_cloud("a/table_2.pcd", own);
+  put_cloud("a/table_3.pcd", {});
+  put_colour("a/table_2.png", 40);
+  put_depth("a/table_3.png", 1500);
+  const auto frames = read("clouds", "a");
+  ASSERT_EQ(frames.size(), 3U);
+  EXPECT_EQ(cv::norm(frames[0].colour, own, cv::NORM_INF), 0);
+  EXPECT_EQ(frames[1].colour(1, 1), cv::Vec3b::all(40));
+  EXPECT_TRUE(frames[2].colour.empty());
+  EXPECT_EQ(read("clouds", "a/table_2.pcd")[0].colour(1, 1), cv::Vec3b::all(40));
 }
 
 }  // namespace

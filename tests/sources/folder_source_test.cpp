@@ -56,6 +56,43 @@ TEST_F(FolderSourceTest, ReadsFramesInTheOrderOfTheirNumbersWithColourAndLabels)
   EXPECT_EQ(frame.name, "10");
 }
 
+// The first frame is looked at when a source is opened. It is not read again, unless somebody goes back to
+// it.
+TEST_F(FolderSourceTest, TheFirstFrameIsReadOnce) {
+  for (const int i : {0, 1, 2, 3}) put_depth(std::to_string(i) + "_depth.png", 1000 + i);
+  put_text("0_depth.png", "no image");
+  const auto source = open_source(folder_.string());
+  fs::remove(folder_ / "0_depth.png");
+  fs::remove(folder_ / "1_depth.png");
+  Frame frame;
+  source->seek(0);
+  const ReadResult broken = source->read(frame, kNoWait);
+  EXPECT_EQ(broken.status, ReadStatus::rejected);
+  EXPECT_THAT(broken.reason, HasSubstr("not a valid PNG"));
+  for (const int i : {1, 2}) {
+    ASSERT_EQ(source->read(frame, kNoWait).status, ReadStatus::frame) << i;
+    EXPECT_EQ(frame.index, i);
+    EXPECT_EQ(frame.depth_mm(0, 0), static_cast<float>(1000 + i));
+  }
+  source->seek(1);
+  EXPECT_EQ(source->read(frame, kNoWait).status, ReadStatus::rejected) << "it is gone";
+  source->seek(3);
+  ASSERT_EQ(source->read(frame, kNoWait).status, ReadStatus::frame);
+  EXPECT_EQ(frame.index, 3);
+}
+
+TEST_F(FolderSourceTest, ASeekSkipsWhatWasReadAhead) {
+  for (const int i : {0, 1, 2}) put_depth(std::to_string(i) + "_depth.png", 1000 + i);
+  const auto source = open_source(folder_.string());
+  Frame frame;
+  source->seek(2);
+  ASSERT_EQ(source->read(frame, kNoWait).status, ReadStatus::frame);
+  EXPECT_EQ(frame.index, 2);
+  source->seek(0);
+  ASSERT_EQ(source->read(frame, kNoWait).status, ReadStatus::frame);
+  EXPECT_EQ(frame.depth_mm(0, 0), 1000);
+}
+
 TEST_F(FolderSourceTest, PosesMakeASequence) {
   for (const char* name : {"0_depth.png", "1_depth.png", "2_depth.png"}) put_depth(name, 1000);
   EXPECT_FALSE(open_source(folder_.string())->info().sequence);
@@ -69,6 +106,9 @@ TEST_F(FolderSourceTest, PosesMakeASequence) {
   EXPECT_EQ(frame.truth.camera_to_world->translation(), cv::Vec3d(500, -250, 2000)) << "in mm";
   ASSERT_EQ(source->read(frame, kNoWait).status, ReadStatus::frame);
   EXPECT_FALSE(frame.truth.camera_to_world) << "there is no third pose";
+  put_text("poses.txt", "nan nan nan nan nan nan nan nan nan nan nan nan nan nan nan nan\n");
+  ASSERT_EQ(open_source(folder_.string())->read(frame, kNoWait).status, ReadStatus::frame);
+  EXPECT_FALSE(frame.truth.camera_to_world) << "the camera was lost";
   put_text("poses.txt", "1 0 0 0  0 1 0 0  0 0 1 0  0 0 0\n");
   EXPECT_THAT(error(), HasSubstr("pose 0 is not 16 numbers"));
 }
@@ -201,7 +241,7 @@ TEST_F(FolderSourceTest, CompanionsThatCannotBeUsedDoNotCostTheDepth) {
   put("1_rgb.png", cv::Mat3b(24, 32, cv::Vec3b(9, 8, 7)));
   EXPECT_EQ(lack(), "") << "it is scaled";
   EXPECT_THAT(open_source(folder_.string())->info().notes,
-              ElementsAre("colour of 32x24 is scaled to the depth's 16x12"));
+              ElementsAre("colour of 32 x 24 is scaled to the depth's 16 x 12"));
   put_text("1_rgb.png", "not a picture");
   EXPECT_THAT(lack(), HasSubstr("no colour: 1_rgb.png: "));
   fs::remove(folder_ / "1_rgb.png");

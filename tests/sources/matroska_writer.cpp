@@ -57,16 +57,24 @@ Bytes track(std::uint64_t index, const Bytes& codec, const Bytes& colour_space, 
                  number(0x23E383, 1'000'000U * static_cast<std::uint64_t>(period_ms)), element(0xE0, video)});
 }
 
-// A packet as a cluster of its own, a key frame.
-Bytes cluster(std::uint8_t track, std::uint64_t time_ms, const Bytes& packet) {
-  Bytes block = {static_cast<std::uint8_t>(0x80U | track), 0, 0, 0x80};
-  add(block, packet);
-  return element(0x1F43B675, joined({number(0xE7, time_ms), element(0xA3, block)}));
+// A packet as a block of a cluster, a key frame; `time` counts from that of the cluster.
+Bytes block(std::uint8_t track, std::int16_t time, const Bytes& packet) {
+  Bytes content = {static_cast<std::uint8_t>(0x80U | track)};
+  add(content, big_endian(static_cast<std::uint16_t>(time), 2));
+  content.push_back(0x80);
+  add(content, packet);
+  return element(0xA3, content);
+}
+
+Bytes cluster(std::uint64_t time, const Bytes& blocks) {
+  return element(0x1F43B675, joined({number(0xE7, time), blocks}));
 }
 
 // `tracks`: TrackEntry elements; `rest`: what follows them.
-void write(const std::filesystem::path& path, const Bytes& tracks, const Bytes& rest) {
-  const Bytes info = joined({number(0x2AD7B1, 1'000'000), text(0x4D80, "saccade"), text(0x5741, "saccade")});
+void write(const std::filesystem::path& path, const Bytes& tracks, const Bytes& rest,
+           std::uint64_t time_unit_ns) {
+  const Bytes info =
+      joined({number(0x2AD7B1, time_unit_ns), text(0x4D80, "saccade"), text(0x5741, "saccade")});
   write_file(
       path,
       joined({element(0x1A45DFA3, joined({text(0x4282, "matroska"), number(0x4287, 4), number(0x4285, 2)})),
@@ -77,8 +85,8 @@ void write_one_track(const std::filesystem::path& path, const Bytes& codec, cons
                      cv::Size size, int period_ms, const std::vector<Bytes>& packets) {
   Bytes clusters;
   for (std::size_t k = 0; k < packets.size(); ++k)
-    add(clusters, cluster(1, k * static_cast<std::uint64_t>(period_ms), packets[k]));
-  write(path, element(0xAE, track(1, codec, colour_space, size, period_ms)), clusters);
+    add(clusters, cluster(k * static_cast<std::uint64_t>(period_ms), block(1, 0, packets[k])));
+  write(path, element(0xAE, track(1, codec, colour_space, size, period_ms)), clusters, 1'000'000);
 }
 
 }  // namespace
@@ -96,18 +104,25 @@ void write_raw_matroska(const std::filesystem::path& path, cv::Size size, int pe
 
 void write_matroska(const std::filesystem::path& path, const std::vector<MatroskaTrack>& tracks,
                     const std::vector<MatroskaAttachment>& attachments) {
+  constexpr std::uint64_t kUnit_ns = 1000;
+  constexpr std::int64_t kLongest_us = 32'000;  // of a cluster: blocks have 16 bits for their times
+  struct Packet {
+    std::uint8_t track = 0;
+    const Bytes* content = nullptr;
+  };
   Bytes entries, files, rest;
-  std::multimap<int, Bytes> clusters;  // by time
+  std::multimap<std::int64_t, Packet> packets;  // by time, us
   for (std::size_t i = 0; i < tracks.size(); ++i) {
     const MatroskaTrack& one = tracks[i];
-    add(entries, element(0xAE, joined({track(i + 1, fourcc_codec(one.fourcc, one.size, one.bits), {},
-                                             one.size, one.period_ms),
-                                       text(0x536E, one.title)})));
-    int time_ms = one.start_ms;
+    const Bytes kind = one.size.empty() ? joined({number(0xD7, i + 1), number(0x73C5, i + 1),
+                                                  number(0x83, 0x11), text(0x86, "S_K4A/IMU")})
+                                        : track(i + 1, fourcc_codec(one.fourcc, one.size, one.bits), {},
+                                                one.size, one.period_ms);
+    add(entries, element(0xAE, joined({kind, text(0x536E, one.title)})));
+    std::int64_t time_us = std::int64_t{1000} * one.start_ms;
     for (const Bytes& packet : one.packets) {
-      clusters.emplace(
-          time_ms, cluster(static_cast<std::uint8_t>(i + 1), static_cast<std::uint64_t>(time_ms), packet));
-      time_ms += one.period_ms;
+      packets.emplace(time_us, Packet{static_cast<std::uint8_t>(i + 1), &packet});
+      time_us += std::int64_t{1000} * one.period_ms;
     }
   }
   for (std::size_t i = 0; i < attachments.size(); ++i)
@@ -115,8 +130,16 @@ void write_matroska(const std::filesystem::path& path, const std::vector<Matrosk
         element(0x61A7, joined({text(0x466E, attachments[i].name), text(0x4660, "application/octet-stream"),
                                 number(0x46AE, i + 1), text(0x465C, attachments[i].content)})));
   if (!files.empty()) rest = element(0x1941A469, files);
-  for (const auto& [time_ms, bytes] : clusters) add(rest, bytes);
-  write(path, entries, rest);
+  add(rest, element(0xEC, Bytes(500)));  // room that the recorder leaves
+  for (auto packet = packets.begin(); packet != packets.end();) {
+    const std::int64_t begin_us = packet->first;
+    Bytes blocks;
+    for (; packet != packets.end() && packet->first - begin_us <= kLongest_us; ++packet)
+      add(blocks, block(packet->second.track, static_cast<std::int16_t>(packet->first - begin_us),
+                        *packet->second.content));
+    add(rest, cluster(static_cast<std::uint64_t>(begin_us), blocks));
+  }
+  write(path, entries, rest, kUnit_ns);
 }
 
 }  // namespace saccade

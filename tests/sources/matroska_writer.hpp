@@ -18,7 +18,8 @@ void write_matroska(const std::filesystem::path& path, std::uint32_t fourcc, cv:
 void write_raw_matroska(const std::filesystem::path& path, cv::Size size, int period_ms,
                         const std::vector<std::vector<std::uint8_t>>& packets);
 
-/// One of several video tracks, whose codec Matroska has no name for.
+/// One of several video tracks, whose codec Matroska has no name for; without a size, a track of the motion
+/// sensor.
 struct MatroskaTrack {
   std::string title;
   std::uint32_t fourcc = 0;
@@ -33,8 +34,8 @@ struct MatroskaAttachment {
   std::string content;
 };
 
-/// Writes tracks and attached files, as the recorder of Azure Kinect does. Packets are in the order of their
-/// times.
+/// Writes tracks and attached files as the recorder of Azure Kinect does: times in us, and clusters of at
+/// most 32 ms with the packets of all tracks in the order of their times.
 void write_matroska(const std::filesystem::path& path, const std::vector<MatroskaTrack>& tracks,
                     const std::vector<MatroskaAttachment>& attachments);
 

@@ -70,6 +70,24 @@ class NyuSourceTest : public ::testing::Test {
     });
   }
 
+  // Overwrites the compressed values of one image of an array.
+  void damage_image(const std::string& name, hsize_t image) const {
+    const hid_t file = H5Fopen(path_.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+    const hid_t data = H5Dopen2(file, name.c_str(), H5P_DEFAULT);
+    const std::vector<hsize_t> corner = {image, 0, 0, 0};
+    unsigned filters = 0;
+    haddr_t address = 0;
+    hsize_t size = 0;
+    ASSERT_GE(H5Dget_chunk_info_by_coord(data, corner.data(), &filters, &address, &size), 0);
+    H5Dclose(data);
+    H5Fclose(file);
+    constexpr hsize_t kUserBlock = 512;  // addresses count from the end of it
+    auto bytes = read_file(path_);
+    ASSERT_LE(kUserBlock + address + size, bytes.size());
+    std::fill_n(bytes.begin() + static_cast<std::ptrdiff_t>(kUserBlock + address), size, std::uint8_t{0xff});
+    write_file(path_, bytes);
+  }
+
   std::string error() {
     close();
     try {
@@ -130,7 +148,7 @@ TEST_F(NyuSourceTest, WithoutInstancesClassesAreObjects) {
   put_labels();
   close();
   const auto source = open_source(path_.string());
-  EXPECT_THAT(source->info().notes, ElementsAre(HasSubstr("no instances")));
+  EXPECT_THAT(source->info().notes, ElementsAre(HasSubstr("no instances that can be used")));
   Frame frame;
   ASSERT_EQ(source->read(frame, kNoWait).status, ReadStatus::frame);
   EXPECT_EQ(frame.truth.labels(2, 2), 7);
@@ -156,18 +174,44 @@ TEST_F(NyuSourceTest, FilesThatAreNotTheDataSet) {
   EXPECT_THAT(error(), HasSubstr("no such source"));
 }
 
-TEST_F(NyuSourceTest, ArraysOfDifferentShapes) {
+// Depth does not need its companions.
+TEST_F(NyuSourceTest, CompanionsOfOtherShapesAreNotUsed) {
   put_depths();
   put<std::uint16_t>(
       "labels", H5T_NATIVE_UINT16, [](int, int, int, int) { return 1; }, 0, kImages, kHeight - 1);
-  EXPECT_THAT(error(), HasSubstr("labels or instances are not N x W x H"));
-}
-
-TEST_F(NyuSourceTest, ImagesOfAnotherNumber) {
-  put_depths();
   put<std::uint8_t>(
       "images", H5T_NATIVE_UINT8, [](int, int, int, int) { return 1; }, 3, kImages - 1);
-  EXPECT_THAT(error(), HasSubstr("images are not N x 3 x W x H"));
+  close();
+  const auto source = open_source(path_.string());
+  EXPECT_THAT(source->info().notes,
+              ElementsAre(HasSubstr("images are not used"), HasSubstr("labels are not used"),
+                          HasSubstr("no labels that can be used")));
+  Frame frame;
+  ASSERT_EQ(source->read(frame, kNoWait).status, ReadStatus::frame);
+  EXPECT_GT(frame.depth_mm(3, 8), 0);
+  EXPECT_TRUE(frame.colour.empty());
+  EXPECT_TRUE(frame.truth.labels.empty());
+}
+
+TEST_F(NyuSourceTest, DamagedColourAndLabelsLeaveTheDepth) {
+  put_depths();
+  put_images();
+  put_labels();
+  close();
+  damage_image("images", 1);
+  damage_image("labels", 2);
+  const auto source = open_source(path_.string());
+  Frame frame;
+  for (int i = 0; i < kImages; ++i) {
+    const ReadResult result = source->read(frame, kNoWait);
+    ASSERT_EQ(result.status, ReadStatus::frame) << i;
+    EXPECT_NEAR(frame.depth_mm(3, 8), 1000 * (1 + i + 0.3 + 0.08), 0.01);
+    EXPECT_EQ(frame.colour.empty(), i == 1);
+    EXPECT_EQ(frame.truth.labels.empty(), i == 2);
+    EXPECT_EQ(result.reason, i == 1   ? "no colour: images is damaged here"
+                             : i == 2 ? "no labels: labels is damaged here"
+                                      : "");
+  }
 }
 
 TEST_F(NyuSourceTest, ACutFile) {

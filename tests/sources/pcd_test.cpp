@@ -61,6 +61,20 @@ TEST_P(PcdTest, DepthAndCameraComeBack) {
   EXPECT_NEAR(cloud.intrinsics->cy, 10.5, 0.01);
 }
 
+TEST_P(PcdTest, ColoursComeBack) {
+  EXPECT_TRUE(read_pcd(sample()).colour.empty()) << "there are none";
+  cv::Mat3b colour(20, 32);
+  for (int r = 0; r < colour.rows; ++r)
+    for (int c = 0; c < colour.cols; ++c)
+      colour(r, c) = cv::Vec3b(static_cast<std::uint8_t>(8 * c), static_cast<std::uint8_t>(12 * r),
+                               static_cast<std::uint8_t>(r * c));
+  auto pcd = write_pcd(sample_depth(), kCamera, GetParam(), colour);
+  const cv::Mat3b read = read_pcd(pcd).colour;
+  ASSERT_EQ(read.size(), colour.size());
+  EXPECT_EQ(cv::norm(read, colour, cv::NORM_INF), 0) << "also where there is no point";
+  EXPECT_TRUE(read_pcd(bytes_of(replaced(pcd, "rgb", "red"))).colour.empty()) << "not a colour";
+}
+
 TEST_P(PcdTest, CutFilesAreAnError) {
   const auto whole = sample();
   for (std::size_t length = 0; length < whole.size(); length += 1 + length / 40) {
@@ -127,11 +141,23 @@ TEST(Pcd, PointsThatFitNoCameraGiveNone) {
   const std::size_t body = text.find("DATA ascii\n") + 11;
   std::string shuffled = text.substr(0, body);
   for (int i = 0; i < 20 * 32; ++i)
-    shuffled += fmt::format("1 {} {} 1\n", (i * 7919) % 641 * 0.01, (i * 31) % 5 * 0.1);
+    shuffled += fmt::format("1 {} {}\n", (i * 7919) % 641 * 0.01, (i * 31) % 5 * 0.1);
   const auto bytes = bytes_of(shuffled);
   const std::string swapped = replaced(bytes, "FIELDS x y z", "FIELDS z x y");
   EXPECT_FALSE(read_pcd(bytes_of(swapped)).intrinsics);
   EXPECT_EQ(cv::countNonZero(read_pcd(bytes_of(swapped)).depth_mm != 1000), 0) << "fields in another order";
+}
+
+// As the tools of the Point Cloud Library also write it: TYPE U, as an integer, under the name of rgba.
+TEST(Pcd, ColoursMayBeIntegers) {
+  std::string text =
+      "VERSION 0.7\nFIELDS rgba x y z\nSIZE 4 4 4 4\nTYPE U F F F\nCOUNT 1 1 1 1\nWIDTH 2\nHEIGHT 2\n"
+      "POINTS 4\nDATA ascii\n4278255361 0 0 1\n65280 0 0 1\n16711680 0 0 1\n-1 0 0 1\n";
+  const cv::Mat3b colour = read_pcd(bytes_of(text)).colour;
+  EXPECT_EQ(colour(0, 0), cv::Vec3b(1, 255, 0)) << "0xff00ff01: the first byte is alpha";
+  EXPECT_EQ(colour(0, 1), cv::Vec3b(0, 255, 0));
+  EXPECT_EQ(colour(1, 0), cv::Vec3b(0, 0, 255));
+  EXPECT_EQ(colour(1, 1), cv::Vec3b(0, 0, 0)) << "no colour";
 }
 
 TEST(Lzf, LiteralsAndReferences) {

@@ -2,16 +2,22 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstring>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace saccade {
 namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 using Point = std::array<float, 4>;
+
+float packed(const cv::Vec3b& bgr) {
+  return std::bit_cast<float>(static_cast<std::uint32_t>(bgr[2] << 16 | bgr[1] << 8 | bgr[0]));
+}
 
 template <typename Value>
 void append(Bytes& bytes, const Value& value) {
@@ -20,16 +26,17 @@ void append(Bytes& bytes, const Value& value) {
   std::memcpy(bytes.data() + at, &value, sizeof(value));
 }
 
-std::vector<Point> points_of(const cv::Mat1f& depth_mm, const Intrinsics& camera) {
+std::vector<Point> points_of(const cv::Mat1f& depth_mm, const Intrinsics& camera, const cv::Mat3b& colour) {
   std::vector<Point> points;
   for (int r = 0; r < depth_mm.rows; ++r)
     for (int c = 0; c < depth_mm.cols; ++c) {
       const cv::Point3d p = camera.point_mm(r, c, static_cast<double>(depth_mm(r, c))) / 1000;
       const float none = std::nanf("");
+      const float rgb = colour.empty() ? 0 : packed(colour(r, c));
       if (p.z > 0)
-        points.push_back({static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z), 0});
+        points.push_back({static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z), rgb});
       else
-        points.push_back({none, none, none, 0});
+        points.push_back({none, none, none, rgb});
     }
   return points;
 }
@@ -76,28 +83,36 @@ std::string to_string(PcdEncoding encoding) {
   return kNames[static_cast<std::size_t>(encoding)];
 }
 
-Bytes write_pcd(const cv::Mat1f& depth_mm, const Intrinsics& camera, PcdEncoding encoding) {
+Bytes write_pcd(const cv::Mat1f& depth_mm, const Intrinsics& camera, PcdEncoding encoding,
+                const cv::Mat3b& colour) {
+  const std::size_t fields = colour.empty() ? 3 : 4;
+  const auto repeated = [&](const char* word) {
+    return fmt::format("{0} {0} {0}{1}", word, fields == 4 ? fmt::format(" {}", word) : "");
+  };
   const std::string header = fmt::format(
-      "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\nFIELDS x y z rgb\nSIZE 4 4 4 4\n"
-      "TYPE F F F F\nCOUNT 1 1 1 1\nWIDTH {}\nHEIGHT {}\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS {}\nDATA {}\n",
-      depth_mm.cols, depth_mm.rows, depth_mm.total(), to_string(encoding));
+      "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\nFIELDS x y z{}\nSIZE {}\nTYPE {}\nCOUNT {}\n"
+      "WIDTH {}\nHEIGHT {}\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS {}\nDATA {}\n",
+      fields == 4 ? " rgb" : "", repeated("4"), repeated("F"), repeated("1"), depth_mm.cols, depth_mm.rows,
+      depth_mm.total(), to_string(encoding));
   Bytes bytes(header.begin(), header.end());
-  const auto points = points_of(depth_mm, camera);
+  const auto points = points_of(depth_mm, camera, colour);
   if (encoding == PcdEncoding::ascii) {
     for (const Point& p : points) {
-      const std::string line = fmt::format("{} {} {} {}\n", p[0], p[1], p[2], p[3]);
+      const std::string line =
+          fmt::format("{}\n", fmt::join(p.begin(), p.begin() + static_cast<std::ptrdiff_t>(fields), " "));
       bytes.insert(bytes.end(), line.begin(), line.end());
     }
   } else if (encoding == PcdEncoding::binary) {
-    for (const Point& p : points) append(bytes, p);
+    for (const Point& p : points)
+      for (std::size_t field = 0; field < fields; ++field) append(bytes, p[field]);
   } else {
     Bytes plain;
-    for (std::size_t field = 0; field < 4; ++field)
+    for (std::size_t field = 0; field < fields; ++field)
       for (const Point& p : points) append(plain, p[field]);
-    const Bytes packed = compress(plain);
-    append(bytes, static_cast<std::uint32_t>(packed.size()));
+    const Bytes packed_bytes = compress(plain);
+    append(bytes, static_cast<std::uint32_t>(packed_bytes.size()));
     append(bytes, static_cast<std::uint32_t>(plain.size()));
-    bytes.insert(bytes.end(), packed.begin(), packed.end());
+    bytes.insert(bytes.end(), packed_bytes.begin(), packed_bytes.end());
   }
   return bytes;
 }

@@ -41,9 +41,9 @@ std::string kind(const std::string& uri) {
   return found == nullptr ? "none" : std::string(found->name);
 }
 
-std::string complaint(const std::string& uri, ExitStatus status) {
+std::string complaint(const std::string& uri, ExitStatus status, const InputSettings& settings = {}) {
   try {
-    open_source(uri);
+    open_source(uri, {{}, settings});
   } catch (const Error& error) {
     EXPECT_EQ(error.status(), status);
     return error.what();
@@ -156,6 +156,22 @@ TEST_F(SourceKinds, DevicesAreKnown) {
   EXPECT_TRUE(names_device("v4l2:/dev/video0"));
   for (const std::string& uri : {put("a.oni"), folder("absent.oni"), std::string("synthetic:room")})
     EXPECT_FALSE(names_device(uri)) << uri;
+}
+
+// A setting that is ignored without a word gives wrong lengths.
+TEST_F(SourceKinds, SettingsWithoutEffectAreRefused) {
+  put("a/0_depth.png", "");
+  for (const char* uri : {"openni2", "v4l2:/dev/video0", "synthetic:table"}) {
+    EXPECT_THAT(complaint(uri, ExitStatus::usage, {.depth_unit_mm = 0.1}),
+                HasSubstr("--depth-unit has no effect"))
+        << uri;
+    EXPECT_THAT(complaint(uri, ExitStatus::usage, {.colour_topic = "/a"}),
+                HasSubstr("--topics has no effect"));
+  }
+  EXPECT_THAT(complaint(folder("a"), ExitStatus::usage, {.camera_topic = "/a"}),
+              HasSubstr("--topics has no effect"));
+  EXPECT_THAT(complaint(folder("a"), ExitStatus::unreadable, {.depth_unit_mm = 0.1}),
+              HasSubstr("no usable depth"));
 }
 
 TEST_F(SourceKinds, ListsOfFilesKnowTheEndings) {

@@ -1,6 +1,8 @@
 // Folders as the TUM RGB-D benchmark has them: lists of times and files.
 #include <filesystem>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -12,6 +14,7 @@ namespace saccade {
 namespace {
 
 namespace fs = std::filesystem;
+using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -59,6 +62,30 @@ TEST_F(TumFolderTest, BrokenTumListNamesTheLine) {
   EXPECT_THAT(error(), HasSubstr("depth.txt:2"));
   put_text("depth.txt", "# nothing\n");
   EXPECT_THAT(error(), HasSubstr("no frames in the list"));
+}
+
+// Camera to world, metres; between two poses, a share of the way and of the turn.
+TEST_F(TumFolderTest, PosesAreThoseOfTheirTimes) {
+  put_depth("a.png", 5000);
+  put_text("depth.txt", "1.00 a.png\n1.05 a.png\n1.09 a.png\n1.30 a.png\n2.00 a.png\n");
+  put_text(
+      "groundtruth.txt",
+      "# timestamp tx ty tz qx qy qz qw\n1.00 0 0 0 0 0 0 1\n1.10 1 2 -3 0 0 0.70710678118 0.70710678118\n"
+      "1.40 9 9 9 0 0 0 2\n2.0 5 5 5 0 0 0 -1\n");
+  const auto source = open_source(folder_.string());
+  EXPECT_THAT(source->info().notes, Contains("1 depth frame without a pose in groundtruth.txt"));
+  std::vector<std::optional<cv::Affine3d>> poses;
+  for (Frame frame; source->read(frame, kNoWait).status == ReadStatus::frame;)
+    poses.push_back(frame.truth.camera_to_world);
+  ASSERT_EQ(poses.size(), 5U);
+  EXPECT_EQ(poses[0]->translation(), cv::Vec3d(0, 0, 0));
+  EXPECT_LT(cv::norm(poses[1]->translation() - cv::Vec3d(500, 1000, -1500)), 1e-6);
+  EXPECT_NEAR(cv::norm(poses[1]->rvec()), CV_PI / 4, 1e-9);
+  EXPECT_NEAR(cv::norm(poses[2]->rvec()), 0.9 * CV_PI / 2, 1e-9);
+  EXPECT_FALSE(poses[3]) << "0.3 s apart";
+  EXPECT_EQ(poses[4]->translation(), cv::Vec3d(5000, 5000, 5000));
+  put_text("groundtruth.txt", "1.0 0 0 0 0 0 0 1\n1.1 0 0 0 0\n");
+  EXPECT_THAT(error(), HasSubstr("groundtruth.txt:2"));
 }
 
 TEST_F(TumFolderTest, TumListsCannotLeadOutOfTheFolder) {

@@ -1,8 +1,13 @@
 #pragma once
 
+#include <sys/inotify.h>
+#include <unistd.h>
+
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -39,6 +44,44 @@ class VideoFiles : public FolderTest {
     std::fill_n(content.begin() + static_cast<std::ptrdiff_t>(begin), bytes, std::uint8_t{0});
     write_file(path(name), content);
   }
+};
+
+/// Watches how a file is used: one that is opened again and again takes time before its first image.
+class FileWatch {
+ public:
+  explicit FileWatch(const std::filesystem::path& file)
+      : file_(std::filesystem::canonical(file)), events_(::inotify_init1(IN_NONBLOCK | IN_CLOEXEC)) {
+    EXPECT_GE(::inotify_add_watch(events_, file.c_str(), IN_OPEN | IN_CLOSE), 0);
+  }
+  ~FileWatch() { ::close(events_); }
+  FileWatch(const FileWatch&) = delete;
+  FileWatch& operator=(const FileWatch&) = delete;
+
+  /// How often it was closed so far; some in an unbroken row count once.
+  int closed() {
+    alignas(inotify_event) std::array<char, 4096> bytes{};
+    for (ssize_t got = 0; (got = ::read(events_, bytes.data(), bytes.size())) > 0;)
+      for (ssize_t at = 0; at < got;) {
+        inotify_event event{};
+        std::memcpy(&event, bytes.data() + at, sizeof event);
+        closed_ += (event.mask & IN_CLOSE) != 0 ? 1 : 0;
+        at += static_cast<ssize_t>(sizeof event + event.len);
+      }
+    return closed_;
+  }
+
+  /// How often this process has it open now.
+  int open() const {
+    int count = 0;
+    std::error_code code;
+    for (const auto& entry : std::filesystem::directory_iterator("/proc/self/fd"))
+      count += std::filesystem::read_symlink(entry.path(), code) == file_ ? 1 : 0;
+    return count;
+  }
+
+ private:
+  std::filesystem::path file_;
+  int events_, closed_ = 0;
 };
 
 /// Reads to the end, at most 2 kFrames positions: the status of each. `check(k, frame)` looks at the sound

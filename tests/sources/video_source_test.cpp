@@ -8,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "core/file.hpp"
+#include "core/fit_colour.hpp"
 #include "core/png.hpp"
 #include "ffv1_writer.hpp"
 #include "matroska_writer.hpp"
@@ -290,6 +291,54 @@ TEST_F(VideoSourceTest, ColourBesideAVideoIsTheNearestInTimeAndScaled) {
   EXPECT_TRUE(frame.colour.empty());
 }
 
+// To the kind (its first bytes), and for the packets and their checksums.
+TEST_F(VideoSourceTest, AFileIsOpenedOnceForItsImages) {
+  write_ffv1("f_depth.mkv");
+  write_png_packets("p.mkv");
+  write_colour("walk.avi");
+  for (const char* name : {"f_depth.mkv", "p.mkv", "walk.avi"}) {
+    FileWatch watch(path(name));
+    const auto source = open_source(path(name).string());
+    Frame frame;
+    ASSERT_EQ(source->read(frame, kNoWait).status, ReadStatus::frame);
+    EXPECT_EQ(watch.closed(), 1) << name;
+    EXPECT_EQ(watch.open(), 2) << name;
+  }
+}
+
+// Every kind of source scales colour by the same function.
+TEST_F(VideoSourceTest, SmallColourIsInterpolated) {
+  cv::Mat3b small(24, 32);
+  for (int row = 0; row < small.rows; ++row)
+    for (int col = 0; col < small.cols; ++col)
+      small(row, col) =
+          cv::Vec3b(static_cast<std::uint8_t>(8 * col), static_cast<std::uint8_t>(10 * row), 128);
+  write_png_packets("a_depth.mkv");
+  cv::VideoWriter writer(path("a_rgb.avi").string(), cv::CAP_OPENCV_MJPEG,
+                         cv::VideoWriter::fourcc('M', 'J', 'P', 'G'), 20, small.size());
+  for (int k = 0; k < kFrames; ++k) writer.write(small);
+  writer.release();
+  write_file(path("depth_0.png"), encode_png(depth_image(0)));
+  write_file(path("rgb_0.png"), encode_png(small));
+  Frame decoded, video, image;
+  ASSERT_EQ(open_source(path("a_rgb.avi").string())->read(decoded, kNoWait).status, ReadStatus::frame);
+  ASSERT_EQ(open_source(path("a_depth.mkv").string())->read(video, kNoWait).status, ReadStatus::frame);
+  ASSERT_EQ(open_source(path("depth_0.png").string())->read(image, kNoWait).status, ReadStatus::frame);
+  cv::Mat3b expected;
+  fit_colour(decoded.colour, kSize, expected);
+  EXPECT_EQ(cv::norm(video.colour, expected, cv::NORM_INF), 0);
+  fit_colour(small, kSize, expected);
+  EXPECT_EQ(cv::norm(image.colour, expected, cv::NORM_INF), 0);
+}
+
+TEST_F(VideoSourceTest, BrokenColourBesideLeavesTheDepth) {
+  write_ffv1("a_depth.mkv");
+  write_file(path("a_rgb.avi"), std::string_view("no video"));
+  const auto source = open_source(path("a_depth.mkv").string());
+  EXPECT_THAT(source->info().notes, Contains(HasSubstr("no colour: no video that can be read")));
+  expect_exact(*source);
+}
+
 TEST_F(VideoSourceTest, AColourVideoHasNoDepthAndSaysSo) {
   write_colour("walk.avi", 25);
   const auto source = open_source(path("walk.avi").string());
@@ -322,6 +371,7 @@ TEST_F(VideoSourceTest, DepthOfEightBitsIsRefusedWithTheReason) {
   EXPECT_THAT(complaint(path("c_depth.mkv").string()), HasSubstr("8 bits"));
   write_matroska(path("c.mkv"), fourcc("MPNG"), kSize, 24, 50, packets);
   EXPECT_FALSE(open_source(path("c.mkv").string())->info().has_depth);
+  EXPECT_THROW(open_source(path("c.mkv").string(), {{}, {.depth_unit_mm = 0.1}}), Error) << "of no effect";
 }
 
 TEST_F(VideoSourceTest, UnreadableInputGivesOneLineAndNothingElse) {
