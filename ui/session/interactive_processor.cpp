@@ -217,6 +217,9 @@ std::shared_ptr<ViewResult> InteractiveProcessor::compute(const Result& result, 
     b.captured_at = a.captured_at;
     fill(*b_, *draft_b_, *request.b, known_ && known_->compared ? &known_->b : nullptr, b_memory_, view->b);
   }
+  const auto followed = [](Computed& side) { return side.marks ? &side : nullptr; };
+  SequenceMemory::number_objects(a_memory_, followed(view->a), b_memory_,
+                                 request.b ? followed(view->b) : nullptr);
   return view;
 }
 

@@ -46,7 +46,7 @@ SequenceMarks MarkHistory::next(const Frame& frame, const Attention& attention, 
                           seconds(*object.looked_us, time_us) < return_after_s;
     const cv::Point2d pixel(fixation.col + 0.5, fixation.row + 0.5);
     shown.marks.push_back({seen_at(object.world_mm, from_world, frame.intrinsics).value_or(pixel), attended,
-                           object.looks, seconds(object.first_us, time_us)});
+                           object.looks, seconds(object.first_us, time_us), fixation.id});
   }
   for (const int id : trail_)
     if (const auto at = seen_at(objects_.at(id).world_mm, from_world, frame.intrinsics))

@@ -20,6 +20,7 @@ struct SequenceMarks {
     bool attended = false;  ///< it was looked at, and the gaze may not return to it yet
     int looks = 0;          ///< how often the gaze has turned to it
     double age_s = 0;       ///< since it was first reported
+    int id = 0;             ///< of its object in the memory of this side; Fixation::id is what is shown
   };
   std::vector<Mark> marks;         ///< one for each fixation, in their order
   std::vector<cv::Point2d> trail;  ///< where the gaze was, oldest first, up to where it is; pixels

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 
 #include "tracking/attention_tracker.hpp"
 #include "tracking/frame_follower.hpp"
+#include "ui/session/object_numbers.hpp"
 #include "ui/session/sequence_marks.hpp"
 #include "ui/session/view_result.hpp"
 
@@ -27,14 +29,27 @@ class SequenceMemory {
   void attend(const FrameFollower& follower, std::int64_t number, const SequenceMemory& other,
               Computed& computed);
 
+  /// Replaces the ids of the objects of a frame by the numbers that both sides have in common
+  /// (assign_numbers()). To be called after each computation of the frame, for the sides that follow the
+  /// sequence; null = this one does not. Their points are those of attend(), or copies of points that have
+  /// been here for the same frame.
+  static void number_objects(SequenceMemory& a, Computed* of_a, SequenceMemory& b, Computed* of_b);
+
  private:
+  struct Numbers {
+    std::map<int, int> of;  // the number of an object, by its id
+    UsedNumbers used;
+  };
   struct State {
     AttentionTracker tracker;
     MarkHistory marks{};
     Settings settings{};                  // of its last map
     std::int64_t number = 0, index = -1;  // of the last frame, followed and in the source
+    Numbers known{}, numbers{};           // before the last frame, and with its objects
   };
 
+  static int first_unused(const State& state);
+  void forget_numbers();
   int first_id_after_cut(const SequenceMemory& other, const Frame& frame) const;
   bool follows(std::int64_t number) const { return before_.number + 1 == number; }
 

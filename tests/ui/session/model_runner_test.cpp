@@ -342,6 +342,40 @@ TEST_F(SequenceTest, BothSidesOfAComparisonHaveTheSameIds) {
   }
 }
 
+// Each ball by its number, in order of attention.
+TEST_F(SequenceTest, WhatBothSidesOfAComparisonSeeHasOneNumberFromTheFirstFrame) {
+  Settings three = settings(9), other = settings(9);
+  three.fixations = other.fixations = 3;
+  other.model = "centre";  // whose order is another one
+  InteractiveProcessor processor({three, other, {}}, 1, true, hooks());
+  const auto expect_one_number = [&] {
+    const std::vector<Fixation>&a = newest_->a.result.attention.fixations,
+          &b = newest_->b.result.attention.fixations;
+    ASSERT_EQ(b.size(), 3U);
+    for (const Fixation& fixation : b) {
+      const auto same = std::ranges::find(a, fixation.id, &Fixation::id);
+      ASSERT_NE(same, a.end()) << fixation.id;
+      EXPECT_LT(std::hypot(same->row - fixation.row, same->col - fixation.col), 40) << fixation.id;
+    }
+    EXPECT_NE(ids(newest_->a), ids(newest_->b));
+    const auto gaze = newest_->b.result.attention.sequence->gaze;
+    ASSERT_TRUE(gaze);
+    EXPECT_EQ(std::ranges::count(b, *gaze, &Fixation::id), 1);
+  };
+  for (int k = 0; k < 4; ++k) {
+    see(processor, k);
+    expect_one_number();
+    if (k == 0) {
+      EXPECT_EQ(newest_->b.result.attention.sequence->gaze, ids(newest_->b).at(0));
+    }
+  }
+  // B's points are taken over from the result before, A's are new.
+  three.kernel = 15;
+  processor.set_compute_request({three, other, {}}, 2);
+  see(processor, 3);
+  expect_one_number();
+}
+
 TEST_F(SequenceTest, ASequenceThatBeginsAgainHasTheSameIdsOnBothSides) {
   Settings few = settings(9);
   few.fixations = 3;
