@@ -19,11 +19,17 @@ computes how mirror-symmetric the surface around each pixel is.
 The package holds the program (viewer, headless processing, recording,
 evaluation), driver modules for OpenNI2, and libraries for programs of
 your own in C++ and Python.")
-# dpkg-shlibdeps finds what is linked. The rest is what the window's libraries open while they run (OpenGL, X11), and the
-# font.
+# dpkg-shlibdeps finds what is linked. The rest is what src/app/lazy_libav.cpp opens, what the window's libraries open
+# while they run (OpenGL, X11), and the font.
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(opened)
+foreach(library libavcodec libavformat libavutil libswscale)
+  string(REGEX MATCH "^[0-9]+" major "${libav_${library}_VERSION}")
+  list(APPEND opened ${library}${major})
+endforeach()
+list(JOIN opened ", " CPACK_DEBIAN_PACKAGE_DEPENDS)
 if(SACCADE_VIEWER)
-  set(CPACK_DEBIAN_PACKAGE_DEPENDS "libgl1, libegl1, libx11-xcb1, libxcursor1, libxi6, libxinerama1, libxrandr2, \
+  string(APPEND CPACK_DEBIAN_PACKAGE_DEPENDS ", libgl1, libegl1, libx11-xcb1, libxcursor1, libxi6, libxinerama1, libxrandr2, \
 libxrender1, libxxf86vm1, fonts-dejavu-core")
 endif()
 if(SACCADE_PYTHON)

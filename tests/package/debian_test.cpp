@@ -76,6 +76,7 @@ TEST_F(DebianTest, ThePackageIsRightAndItsProgramWorks) {
 void DebianTest::check_dependencies() const {
   EXPECT_EQ(field("Version"), std::string(kVersion) + "\n");
   const std::string depends = field("Depends");
+  EXPECT_THAT(depends, HasSubstr("libavformat")) << "which is not linked, but opened";
   for (const char* package : {"libc6", "libopencv-core406", "libspng0"})
     EXPECT_THAT(depends, HasSubstr(package));
 #ifdef SACCADE_HAS_VIEWER

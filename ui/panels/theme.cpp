@@ -22,8 +22,10 @@ constexpr std::array kFonts = {
     FontFiles{"/usr/share/fonts/truetype/liberation/LiberationSans-Regular.ttf",
               "/usr/share/fonts/truetype/liberation/LiberationSans-Bold.ttf"},
 };
-// Latin, dashes, quotes, ellipsis, arrows, mathematical signs.
-constexpr std::array<ImWchar, 9> kGlyphs = {0x20, 0x17f, 0x2010, 0x2027, 0x2190, 0x21ff, 0x2200, 0x22ff, 0};
+// Drawing the glyphs is a part of the start of the window, so there are no more than the texts need: Latin
+// (names of files and sensors), dashes, quotes, ellipsis and minus; headlines are in English.
+constexpr std::array<ImWchar, 7> kGlyphs = {0x20, 0x17f, 0x2010, 0x2027, 0x2212, 0x2212, 0};
+constexpr std::array<ImWchar, 5> kHeadlineGlyphs = {0x20, 0x7e, 0x2026, 0x2026, 0};
 
 constexpr unsigned rgb(unsigned hex, unsigned alpha = 255) {
   return alpha << 24 | (hex & 0xff) << 16 | (hex >> 8 & 0xff) << 8 | (hex >> 16 & 0xff);
@@ -138,9 +140,11 @@ Fonts load_fonts(double scale) {
   std::error_code code;
   for (const FontFiles& files : kFonts) {
     if (!std::filesystem::exists(files.regular, code) || !std::filesystem::exists(files.bold, code)) continue;
-    atlas.AddFontFromFileTTF(files.regular, size, nullptr, kGlyphs.data());
-    return {atlas.AddFontFromFileTTF(files.bold, size, nullptr, kGlyphs.data()),
-            atlas.AddFontFromFileTTF(files.bold, large, nullptr, kGlyphs.data())};
+    ImFontConfig glyphs;
+    glyphs.OversampleH = 2;  // looks like ImGui's 3, in two thirds of the time and memory
+    atlas.AddFontFromFileTTF(files.regular, size, &glyphs, kGlyphs.data());
+    return {atlas.AddFontFromFileTTF(files.bold, size, &glyphs, kGlyphs.data()),
+            atlas.AddFontFromFileTTF(files.bold, large, &glyphs, kHeadlineGlyphs.data())};
   }
   ImFontConfig config;
   config.SizePixels = static_cast<float>(std::round(13 * scale));
