@@ -51,6 +51,11 @@ void draw_choices(CloudStyle& style, CloudPanelState& state) {
   continue_line("Reset view", 1);
   if (ImGui::Button("Reset view")) state.placed = false;
   explain("Back to the sensor's own view; a double click does the same.");
+  if (!state.title.empty()) {
+    continue_line(state.title.c_str(), 0);
+    ImGui::TextDisabled("%s", state.title.c_str());
+    state.title_place = place_of_item("cloud title");
+  }
   ImGui::Unindent(em / 2);
 }
 

@@ -10,6 +10,7 @@
 
 #include "attention/attention.hpp"
 #include "core/frame.hpp"
+#include "ui/panels/panel_text.hpp"
 #include "ui/session/cloud_vertices.hpp"
 #include "ui/session/orbit_camera.hpp"
 
@@ -20,8 +21,10 @@ struct CloudPanelState {
   OrbitCamera camera;
   std::optional<cv::Point3d> pinned;  ///< the point of the pinned pixel, mm
   std::vector<cv::Point3d> measured;  ///< ends of a distance, mm; empty, or two
+  std::string title;                  ///< stands behind the choices; empty = none
   int highlighted = -1;               ///< index of the fixation to point out; -1 = none
   bool placed = false;                ///< false: the next frame starts from the sensor's own view
+  ItemPlace title_place;              ///< set by draw_cloud(), if there is a title
   int hovered_mark = -1;              ///< set by draw_cloud(): the fixation under the pointer; -1 = none
   bool clicked = false;  ///< set by draw_cloud(): a click, without a drag, on hovered_mark or ...
   std::optional<cv::Point>

@@ -23,12 +23,13 @@ void CloudPanel::draw(ViewContext& view) {
     const cv::Point3f& p = view.centre_on->position_mm;
     state_.camera.look_at({static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z)});
   }
+  state_.title = view.state.comparing() ? "of A" : "";
   draw_cloud(style, state_, shown, computed.result.attention, [&](cv::Size size) {
     return as_imgui(picture_->render(frame, style, state_.camera, size, view.state.theme == Theme::light));
   });
   if (state_.hovered_mark >= 0) {
     view.hovered_mark = state_.hovered_mark;
-    if (!ImGui::IsMouseDown(ImGuiMouseButton_Left)) explain_fixation(computed, state_.hovered_mark);
+    if (!ImGui::IsMouseDown(ImGuiMouseButton_Left)) explain_fixation(computed, state_.hovered_mark, true);
   }
   if (state_.clicked && state_.hovered_mark >= 0)
     click_mark(view, state_.hovered_mark);

@@ -42,6 +42,7 @@ void draw_range(ViewContext& view, const char* id, std::optional<ValueRange>& ra
   ImGui::PushID(id);
   bool locked = range.has_value();
   if (ImGui::Checkbox("Lock range", &locked)) range = locked ? std::optional(automatic) : std::nullopt;
+  log_place(view, (std::string("lock ") + id).c_str());
   explain(
       "Keeps the range of the map's local mean, or of depth, from frame to frame, so that colours can be "
       "compared");
@@ -139,8 +140,9 @@ void draw_display_panel(ViewContext& view) {
               [&] { return share_slider("##opacity", style.map.opacity); });
     named_row("Threshold", "Hides values below this share of the range",
               [&] { return share_slider("##threshold", style.map.threshold); });
-    const ValueRange automatic =
-        view.result ? shown_range(view.result->a.smooth, MapStyle{}) : ValueRange{0, 1};
+    const ValueRange automatic =  // as in the legend
+        view.result ? shown_range(view.result->a.smooth, shown_map_style(view.state, *view.result))
+                    : ValueRange{0, 1};
     if (view.state.comparing()) {
       ImGui::Checkbox("A and B on one range", &view.state.common_range);
       explain(
@@ -151,10 +153,13 @@ void draw_display_panel(ViewContext& view) {
   }
   ImGui::Spacing();
   ImGui::Checkbox("Fixations", &style.marks);
-  explain(with_key("Numbered marks at the fixations, the first in green", Action::toggle_marks));
+  explain(with_key(
+      "Numbered marks at the fixations; over time each object has its colour, else the first is green",
+      Action::toggle_marks));
   ImGui::SameLine(0, view.px(14));
   ImGui::Checkbox("Scan path", &style.path);
-  explain(with_key("Lines from each fixation to the next", Action::toggle_path));
+  explain(with_key("Lines from each fixation to the next; over time, where the gaze was before",
+                   Action::toggle_path));
   ImGui::SameLine(0, view.px(14));
   ImGui::Checkbox("Outlines", &style.outlines);
   explain(with_key("Outlines of the proto-objects", Action::toggle_outlines));

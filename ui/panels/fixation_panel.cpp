@@ -66,9 +66,12 @@ void draw_header(int columns) {
     const Column& column = kColumns[static_cast<std::size_t>(i)];
     ImGui::TableSetColumnIndex(i);
     const ImVec2 corner = ImGui::GetCursorScreenPos();
+    const float room = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(column.name).x;
     ImGui::TableHeader((std::string("##") + column.name).c_str());
     explain(column.explanation);
-    ImGui::GetWindowDrawList()->AddText(corner, ImGui::GetColorU32(ImGuiCol_Text), column.name);
+    const float left = i == 0 ? 0 : std::max(room, 0.0F);  // over the numbers, which end at the right
+    ImGui::GetWindowDrawList()->AddText({corner.x + left, corner.y}, ImGui::GetColorU32(ImGuiCol_Text),
+                                        column.name);
   }
 }
 
@@ -103,15 +106,17 @@ std::string object_text(const Computed& computed, int index) {
   const Fixation& f = computed.result.attention.fixations[static_cast<std::size_t>(index)];
   const SequenceMarks::Mark& mark = computed.marks->marks[static_cast<std::size_t>(index)];
   return fmt::format(
-      "Object {}, rank {}{}\nknown for {:.1f} s, seen in {} frame{}\nlooked at {}\n"
+      "Object {}, rank {}{}\nknown for {:.1f} s, seen in {}\n{}\n"
       "world {:.0f}, {:.0f}, {:.0f} mm",
       f.id, index + 1,
       computed.result.attention.sequence->gaze == f.id ? ", looked at now"
       : mark.attended                                  ? ", looked at a moment ago"
                                                        : "",
-      mark.age_s, f.age_frames, f.age_frames == 1 ? "" : "s",
-      mark.looks == 1 ? "once" : fmt::format("{} times", mark.looks), f.world_mm.x, f.world_mm.y,
-      f.world_mm.z);
+      mark.age_s, counted(f.age_frames, "frame"),
+      mark.looks == 0   ? "not looked at yet"
+      : mark.looks == 1 ? "looked at once"
+                        : fmt::format("looked at {} times", mark.looks),
+      f.world_mm.x, f.world_mm.y, f.world_mm.z);
 }
 
 void FixationPanel::draw(ViewContext& view) {

@@ -26,23 +26,23 @@ constexpr std::array<Row, 9> kMouse = {{
 constexpr std::array<Row, 9> kSeen = {{
     {"Colours over the picture",
      "The mean of the saliency around each pixel. Strong colours mark what attracts attention; the legend "
-     "below the "
-     "picture has the values, and a tick for the pixel under the mouse. Weak values are transparent."},
+     "below the picture has the values, and a tick for the pixel under the mouse. Weak values are "
+     "transparent."},
     {"Numbered discs",
      "Fixations, in the order in which the selector attends to them; the first is green. Over time each "
-     "object "
-     "keeps its number and its colour; those that were looked at a moment ago are faint."},
+     "object keeps its number and its colour; those that were looked at a moment ago are faint."},
     {"Ring and trail", "Over time: the object that is looked at now, and where the gaze was before."},
     {"Lines between them", "Frame by frame: the scan path, from each fixation to the next."},
     {"Outlines", "Proto-objects: the surface that the selector takes as one object around a fixation."},
     {"saliency",
      "Everywhere the value of the map as it was computed, as in the files. Its peaks are only a few pixels "
-     "wide, so "
-     "the colours and their legend show its local mean, which is lower than the peaks, and say so."},
+     "wide, so the colours and their legend show its local mean, which is lower than the peaks, and say so."},
     {"Bars of the time line",
      "The largest saliency of each computed frame; grey where the settings have changed since."},
     {"Draft", "A quick result from coarser levels, while the exact one is computed."},
-    {"A and B", "Two settings on the same frame; Tuning edits the chosen one."},
+    {"A and B",
+     "Two settings on the same frame; Tuning edits the chosen one. Over time what both find has one number "
+     "and one colour. Points and the table of fixations are of A."},
 }};
 
 constexpr std::array<Row, 14> kGlossary = {{

@@ -41,6 +41,19 @@ void heading(const char* text) {
 
 }  // namespace
 
+std::string forms_text(const std::string& forms, float width) {
+  std::string text = "A path, or:", line = text;
+  for (std::size_t begin = 0; begin < forms.size();) {
+    const std::size_t end = std::min(forms.find(", ", begin), forms.size());
+    const std::string form = " " + forms.substr(begin, end - begin) + (end < forms.size() ? "," : "");
+    const bool fits = ImGui::CalcTextSize((line + form).c_str()).x <= width;
+    line = fits ? line + form : form.substr(1);
+    text += fits ? form : "\n" + line;
+    begin = end + 2;
+  }
+  return text;
+}
+
 void OpenDialog::show() {
   opening_ = focus_ = true;
   // Where the last choice was made, without a name that may be wrong.
@@ -57,9 +70,7 @@ void OpenDialog::draw(ViewContext& view) {
 void OpenDialog::draw_contents(ViewContext& view) {
   contents_ = lister_.poll(typed_path(text_.data()));
   std::string chosen;
-  ImGui::PushTextWrapPos(0);
-  ImGui::TextDisabled("A path, or: %s", source_forms().c_str());
-  ImGui::PopTextWrapPos();
+  ImGui::TextDisabled("%s", forms_text(source_forms(), ImGui::GetContentRegionAvail().x).c_str());
   if (std::exchange(focus_, false)) ImGui::SetKeyboardFocusHere();
   ImGui::SetNextItemWidth(-view.px(80));
   if (ImGui::InputText("##uri", text_.data(), text_.size(), ImGuiInputTextFlags_EnterReturnsTrue))
@@ -128,6 +139,7 @@ void OpenDialog::draw_places(ViewContext& view, std::string& chosen) {
 }
 
 void OpenDialog::draw_folder(ViewContext& view, std::string& chosen) {
+  ImGui::Spacing();  // as the headings beside it
   wrapped_text(contents_.folder, Tone::quiet);
   if (!contents_.error.empty()) wrapped_text(contents_.error, Tone::bad);
   if (contents_.source) {

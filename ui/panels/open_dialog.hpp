@@ -33,4 +33,8 @@ class OpenDialog {
   FolderContents contents_;
 };
 
+/// What can be typed, from forms with ", " between them, in lines of at most `width` pixels that break
+/// between forms only.
+[[nodiscard]] std::string forms_text(const std::string& forms, float width);
+
 }  // namespace saccade

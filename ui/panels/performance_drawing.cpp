@@ -18,8 +18,7 @@ constexpr std::array<const char*, StageHistory::kStages> kLabels = {"capture", "
                                                                     "master map", "attention"};
 constexpr std::array<const char*, StageHistory::kStages> kExplanations = {
     "Reading and decoding the frame, and waiting for it: mostly waiting with a live sensor, or with a "
-    "recording "
-    "at its own speed.",
+    "recording at its own speed.",
     "Pyramid, points and normals of every level.",
     "The symmetry operator at every level (other models: all of their work).",
     "Resizing the levels to full size and adding them.",

@@ -1,6 +1,8 @@
 #include "ui/panels/picture_clicks.hpp"
 
+#include <algorithm>
 #include <string>
+#include <vector>
 
 #include <fmt/format.h>
 #include <imgui.h>
@@ -10,6 +12,14 @@
 #include "ui/panels/panel_text.hpp"
 
 namespace saccade {
+
+int fixation_of_a(const ViewResult& result, int index, bool is_b) {
+  if (!is_b) return index;
+  const std::vector<Fixation>& a = result.a.result.attention.fixations;
+  const int id = result.b.result.attention.fixations[static_cast<std::size_t>(index)].id;
+  const auto same = std::ranges::find(a, id, &Fixation::id);
+  return id == 0 || same == a.end() ? -1 : static_cast<int>(same - a.begin());  // ranks name no object
+}
 
 void click_mark(ViewContext& view, int index) {
   if (index == view.locked)
@@ -33,9 +43,9 @@ void click_pixel(ViewContext& view, std::optional<cv::Point> pixel, bool is_b) {
   view.lock.unlock();
 }
 
-void explain_fixation(const Computed& computed, int rank) {
-  const Fixation& f = computed.result.attention.fixations[static_cast<std::size_t>(rank)];
-  std::string text = computed.marks ? object_text(computed, rank) : fmt::format("Fixation {}", rank + 1);
+void explain_fixation(const Computed& computed, int index, bool followed) {
+  const Fixation& f = computed.result.attention.fixations[static_cast<std::size_t>(index)];
+  std::string text = computed.marks ? object_text(computed, index) : fmt::format("Fixation {}", index + 1);
   text += fmt::format("\nrow {}, column {}\nsaliency {}{}", f.row, f.col, saliency_text(f.saliency),
                       computed.marks ? " (of the object, averaged over time)" : "");
   if (f.confidence) text += fmt::format("\nconfidence {:.2f}", *f.confidence);
@@ -46,7 +56,7 @@ void explain_fixation(const Computed& computed, int rank) {
     text +=
         fmt::format("\nobject of {}, {:.0f} x {:.0f} x {:.0f} mm", counted(f.proto_object.pixels, "pixel"),
                     f.proto_object.extent_mm.x, f.proto_object.extent_mm.y, f.proto_object.extent_mm.z);
-  text += "\nA click follows it from frame to frame";
+  if (followed) text += "\nA click follows it from frame to frame";
   ImGui::SetTooltip("%s", text.c_str());
 }
 

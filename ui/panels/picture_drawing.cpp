@@ -81,20 +81,20 @@ std::string remark(const ViewContext& view, const Computed& computed) {
   return "";
 }
 
-// The model and its kernel, above the picture; only A or B where there is no room. Below it the error.
+std::string model_text(const Computed& computed) {
+  const Settings& s = computed.settings;
+  if (computed.draft)
+    return fmt::format("{}  draft: kernel {} on levels {}..{}", s.model, s.kernel, s.first_level,
+                       s.last_level);
+  return needs_depth(s.model) ? fmt::format("{}  kernel {}", s.model, s.kernel) : s.model;
+}
+
+// The title above the picture; only A or B where there is no room. Below it the error.
 void draw_title(const ViewContext& view, const Computed& computed, const PictureSide& side) {
   const float pad = view.px(8), room = side.clip_high.x - side.clip_low.x - 2 * pad;
-  const Settings& s = computed.settings;
-  const std::string letter = shows_difference(view)    ? "A − B"
-                             : !view.state.comparing() ? ""
-                             : side.is_b               ? "B"
-                                                       : "A";
-  std::string text = fmt::format("{}{}{}", letter, letter.empty() ? "" : "  ", s.model);
-  if (computed.draft)
-    text += fmt::format("  draft: kernel {} on levels {}..{}", s.kernel, s.first_level, s.last_level);
-  else if (needs_depth(s.model))
-    text += fmt::format("  kernel {}", s.kernel);
-  if (chip_size(view, text).x > room) text = letter;
+  std::string text = picture_title(view, side.is_b);
+  if (chip_size(view, text).x > room)
+    text = shows_difference(view) ? "A − B" : !view.state.comparing() ? "" : side.is_b ? "B" : "A";
   const float width = chip_size(view, text).x;
   const float y = side.clip_low.y - side.strip + view.px(4);
   const bool at_right = side.is_b && view.state.comparison == Comparison::split;
@@ -223,11 +223,7 @@ void draw_pointer(const ViewContext& view, const Computed& computed, const Pictu
   if (!pixel || map.size() != view.result->frame().size()) return;
   const cv::Point p = *pixel;
   const float depth = view.result->frame().depth_mm(p);
-  const std::string mm = depth > 0 ? fmt::format("{:.0f} mm", depth) : "no depth";
-  const std::string value = saliency_text(map(p));
-  for (const std::string& text :
-       {fmt::format("row {}  col {}   {}   saliency {}", p.y, p.x, mm, value),
-        fmt::format("{}   saliency {}", mm, value), fmt::format("{}   {}", mm, value)}) {
+  for (const std::string& text : pixel_texts(p, depth, map(p))) {
     const ImVec2 size = chip_size(view, text);
     if (size.x > room) continue;
     const ImVec2 corner{side.clip_low.x + view.px(8), side.clip_high.y + side.strip - view.px(3) - size.y};
@@ -281,6 +277,21 @@ void draw_rings(const ViewContext& view, const PictureSide& side, const OverlayS
 
 }  // namespace
 
+std::string picture_title(const ViewContext& view, bool is_b) {
+  const ViewResult& result = *view.result;
+  if (shows_difference(view))
+    return fmt::format("A − B   {} − {}", model_text(result.a), model_text(result.b));
+  const std::string text = model_text(is_b ? result.b : result.a);
+  return view.state.comparing() ? fmt::format("{}  {}", is_b ? "B" : "A", text) : text;
+}
+
+std::array<std::string, 3> pixel_texts(cv::Point pixel, float depth_mm, float saliency) {
+  const std::string mm = depth_mm > 0 ? fmt::format("{:.0f} mm", depth_mm) : "no depth";
+  const std::string value = "saliency " + saliency_text(saliency);
+  return {fmt::format("row {}  col {}   {}   {}", pixel.y, pixel.x, mm, value),
+          fmt::format("{}   {}", mm, value), value};
+}
+
 void draw_over_picture(ViewContext& view, const PictureSide& side, const PictureView& picture,
                        std::optional<ValueRange> depth_range) {
   const Computed& computed = side.is_b ? view.result->b : view.result->a;
@@ -308,8 +319,8 @@ void draw_over_picture(ViewContext& view, const PictureSide& side, const Picture
   const ImVec2 mouse = ImGui::GetIO().MousePos;
   const int mark = mark_under(shapes, as_point({mouse.x - side.corner.x, mouse.y - side.corner.y}));
   if (mark < 0) return;
-  if (!side.is_b) view.hovered_mark = mark;
-  explain_fixation(computed, mark);
+  view.hovered_mark = fixation_of_a(*view.result, mark, side.is_b);
+  explain_fixation(computed, mark, view.hovered_mark >= 0);
 }
 
 void draw_divider(ViewContext& view, const PictureSide& whole) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 
@@ -27,6 +28,12 @@ void draw_over_picture(ViewContext& view, const PictureSide& side, const Picture
 
 /// Whether the picture shows the difference of A's and B's maps, which are there and of one size.
 [[nodiscard]] bool shows_difference(const ViewContext& view);
+
+/// What stands above a picture: the model and its kernel, of both sides where it shows their difference.
+[[nodiscard]] std::string picture_title(const ViewContext& view, bool is_b);
+
+/// The values of a pixel, from the longest text to the shortest; depth_mm 0 = no reading.
+[[nodiscard]] std::array<std::string, 3> pixel_texts(cv::Point pixel, float depth_mm, float saliency);
 
 /// The line between two compared pictures.
 void draw_divider(ViewContext& view, const PictureSide& whole);

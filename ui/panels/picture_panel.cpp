@@ -22,6 +22,7 @@ constexpr double kZoomStep = 1.15, kSharpFrom = 3;
 struct PicturePanel::Layers {
   struct Side {
     std::unique_ptr<PictureTexture> texture;  // made with the first picture
+    cv::Mat3b picture;                        // kept for its memory
     std::int64_t serial = 0;
     bool map = false, difference = false;
     OverlayStyle style;
@@ -60,16 +61,15 @@ struct PicturePanel::Layers {
         side.style.map == style.map && side.style.background == style.background &&
         side.style.depth == style.depth)
       return;
-    cv::Mat3b picture = background;
     if (state.show_map) {
-      picture = background.clone();
+      background.copyTo(side.picture);
       if (difference)
-        blend_difference(picture, map_difference(result.a.smooth, result.b.smooth), style.map.opacity);
+        blend_difference(side.picture, map_difference(result.a.smooth, result.b.smooth), style.map.opacity);
       else
-        blend_map(picture, shown_strength(computed.smooth, style.map), style.map);
+        blend_map(side.picture, shown_strength(computed.smooth, style.map), style.map);
     }
     if (!side.texture) side.texture = context.graphics.make_texture();
-    side.texture->upload(picture);
+    side.texture->upload(state.show_map ? side.picture : background);
     side.serial = serial;
     side.map = state.show_map;
     side.difference = difference;
@@ -174,8 +174,8 @@ void PicturePanel::click(ViewContext& view, const PictureSide& side) {
   const OverlayShapes shapes = overlay_shapes(computed, view.state.style, layers_->view, view.unit);
   const ImVec2 mouse = ImGui::GetIO().MousePos;
   const int mark = mark_under(shapes, as_point({mouse.x - side.corner.x, mouse.y - side.corner.y}));
-  if (mark >= 0 && !side.is_b)
-    click_mark(view, mark);
+  if (const int locked = mark < 0 ? -1 : fixation_of_a(*view.result, mark, side.is_b); locked >= 0)
+    click_mark(view, locked);
   else
     click_pixel(view, view.pointer, side.is_b);
 }

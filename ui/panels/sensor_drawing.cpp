@@ -58,8 +58,7 @@ void draw_buttons(const SensorFacts& facts, SensorActions& actions) {
   ImGui::EndDisabled();
   explain(
       "Writes the frame on screen: depth and colour (PNG), point cloud (PLY), overlay (PNG), saliency map "
-      "(TIFF, "
-      "PNG), fixations (JSON) and settings (TOML).");
+      "(TIFF, PNG), fixations (JSON) and settings (TOML).");
 }
 
 void draw_written(const SensorFacts& facts) {

@@ -55,7 +55,8 @@ void SensorPanel::edit_folder(ViewContext& view) {
     if (view.file_dialog)
       ImGui::SetNextItemWidth(
           -(ImGui::CalcTextSize(button).x + 2 * style.FramePadding.x + style.ItemSpacing.x));
-    return ImGui::InputText("##folder", typed_folder_.data(), typed_folder_.size());
+    return ImGui::InputTextWithHint("##folder", usual_folder_.c_str(), typed_folder_.data(),
+                                    typed_folder_.size());
   });
   log_place(view, "output folder");
   if (ImGui::IsItemDeactivatedAfterEdit()) set_folder(view, typed_path(typed_folder_.data()));

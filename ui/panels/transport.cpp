@@ -38,7 +38,7 @@ void draw_recording_buttons(ViewContext& view) {
   action_button(view, "record", Icon::record, Action::record,
                 recording ? "Stop recording" : "Record to an .oni file", view.px(10), recording);
   action_button(view, "snapshot", Icon::camera, Action::snapshot,
-                "Snapshot: overlay, saliency map and fixations", view.px(3));
+                "Snapshot of this frame: depth, colour, points, map, overlay and fixations", view.px(3));
 }
 
 void draw_buttons(ViewContext& view) {

@@ -46,8 +46,7 @@ void draw_levels(ViewContext& view, Settings& s) {
   if (!s.levels_chosen && shown != nullptr) last = std::min(last, shown->settings.last_level);
   const char* explanation =
       "The pyramid levels whose maps are added. Level 0 has full size, each further one half the size of the "
-      "one "
-      "before. Drag, or Ctrl+click to type.";
+      "one before. Drag, or Ctrl+click to type";
   if (named_row("Levels", explanation, [&] {
         return ImGui::DragIntRange2("##levels", &first, &last, 0.05F, 0, 8, "from %d", "to %d",
                                     ImGuiSliderFlags_AlwaysClamp);

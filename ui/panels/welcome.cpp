@@ -24,7 +24,8 @@ void draw_welcome(ViewContext& view, ImVec2 low, ImVec2 high) {
   ImGui::PopFont();
   wrapped_text(
       "This is a demo recording: a table with objects. The colours show where the scene is symmetric, which "
-      "attracts attention; the numbers are the places that an observer would look at, in this order.");
+      "attracts attention; each object that an observer would look at has a number, and the ring is around "
+      "the one that is looked at now.");
   if (ImGui::Button("Open a sensor, a file or an example…")) view.act(Action::open_source);
   explain(with_key("Lists connected sensors, recent sources, examples and folders", Action::open_source));
   log_place(view, "welcome open");

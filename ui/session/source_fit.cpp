@@ -34,8 +34,7 @@ std::vector<std::string> SourceFit::fit(ComparedSettings& settings, const Source
       if (i == 0)
         notes.push_back(
             fmt::format("Model {} needs depth, and this source has none: {} is shown instead; choose another "
-                        "2D model under "
-                        "Tuning",
+                        "2D model under Tuning",
                         s.model, kModelOfImage));
       replaced_[i].model = std::exchange(s.model, kModelOfImage);
     }

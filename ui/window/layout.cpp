@@ -43,7 +43,7 @@ void Viewer::draw_window() {
     part("sidebar", {0, height}, [&] { sidebar_.draw(view_); });
   }
   ImGui::PopStyleVar(2);
-  draw_notice();
+  draw_notice(ImGui::GetIO().DisplaySize.x - sidebar);
   open_dialog_.draw(view_);
   settings_dialog_.draw(view_);
   help_.draw(view_);
@@ -111,22 +111,24 @@ void Viewer::draw_centre() {
   draw_welcome(view_, corner, {corner.x + room.x, corner.y + room.y});
 }
 
-// At the bottom, above the transport, in as many lines as it needs; errors are at the top.
-void Viewer::draw_notice() {
+// At the bottom of a body of this width, above the transport, in as many lines as it needs; errors are at the
+// top.
+void Viewer::draw_notice(float body) {
   if (view_.notice.empty()) return;
   if (ImGui::GetTime() > view_.notice_until) {
     view_.notice.clear();
     return;
   }
-  const ImVec2 screen = ImGui::GetIO().DisplaySize;
   const ImVec2 pad{view_.px(14), view_.px(8)};
-  const float wrap = 0.8F * screen.x - 2 * pad.x;
+  const float wrap = 0.9F * body - 2 * pad.x;
   const char* text = view_.notice.c_str();
   const ImVec2 size = ImGui::CalcTextSize(text, nullptr, false, wrap);
-  const ImVec2 corner{(screen.x - size.x) / 2 - pad.x, screen.y - view_.px(140) - size.y - 2 * pad.y};
+  const ImVec2 corner{(body - size.x) / 2 - pad.x,
+                      ImGui::GetIO().DisplaySize.y - view_.px(140) - size.y - 2 * pad.y};
+  const ImVec2 end{corner.x + size.x + 2 * pad.x, corner.y + size.y + 2 * pad.y};
+  view_.places["notice"] = {corner.x, corner.y, end.x, end.y};
   ImDrawList& draw = *ImGui::GetForegroundDrawList();
-  draw.AddRectFilled(corner, {corner.x + size.x + 2 * pad.x, corner.y + size.y + 2 * pad.y},
-                     IM_COL32(20, 24, 29, 235), view_.px(8));
+  draw.AddRectFilled(corner, end, IM_COL32(20, 24, 29, 235), view_.px(8));
   draw.AddText(ImGui::GetFont(), ImGui::GetFontSize(), {corner.x + pad.x, corner.y + pad.y},
                IM_COL32(235, 238, 242, 255), text, nullptr, wrap);
 }

@@ -72,7 +72,7 @@ class Viewer {
   void draw_splitter(float height);
   void draw_body(float height);
   void draw_centre();
-  void draw_notice();
+  void draw_notice(float body);
   void handle_keys();
   void act(Action action);
   void escape();

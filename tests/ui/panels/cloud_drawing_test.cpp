@@ -54,6 +54,15 @@ TEST_F(CloudDrawingTest, BeginsAtTheSensorAndFillsTheRoom) {
   EXPECT_LE(drawn.content_width, drawn.window_width + 1);
 }
 
+TEST_F(CloudDrawingTest, ATitleStandsBesideTheChoices) {
+  draw();
+  EXPECT_EQ(state_.title_place.name, "");
+  state_.title = "of A";
+  draw();
+  EXPECT_GT(state_.title_place.high.x, state_.title_place.low.x);
+  EXPECT_LT(state_.title_place.high.y, 520.0F - static_cast<float>(size_.height) + 1);
+}
+
 TEST_F(CloudDrawingTest, DragsTurnAndMoveAndADoubleClickGoesBack) {
   draw();
   drag(ImGuiMouseButton_Left, {300, 300}, {360, 300});

@@ -91,6 +91,9 @@ TEST(ObjectText, SaysWhatIsKnown) {
       object_text(computed, 1),
       "Object 7, rank 2, looked at a moment ago\nknown for 3.2 s, seen in 96 frames\nlooked at 2 times\n"
       "world 10, -20, 1000 mm");
+  computed.marks->marks[1].looks = 0;
+  fixation.age_frames = 1;
+  EXPECT_THAT(object_text(computed, 1), ::testing::HasSubstr("seen in 1 frame\nnot looked at yet\n"));
   computed.result.attention.sequence->gaze = 7;
   EXPECT_THAT(object_text(computed, 1), ::testing::HasSubstr("looked at now"));
 }

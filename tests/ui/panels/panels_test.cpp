@@ -6,6 +6,7 @@
 #include "panel_test.hpp"
 #include "ui/panels/open_dialog.hpp"
 #include "ui/panels/panels.hpp"
+#include "ui/panels/picture_clicks.hpp"
 #include "ui/panels/picture_drawing.hpp"
 #include "ui/panels/widgets.hpp"
 
@@ -72,6 +73,16 @@ TEST_F(ViewerPanelsTest, TheSidePanelsFitIntoTheSideBar) {
   expect_fits([this] { draw_tuning_panel(view_); });
   expect_fits([this] { draw_display_panel(view_); });
   expect_fits([this] { draw_performance_panel(view_); });
+}
+
+TEST_F(ViewerPanelsTest, ALockedRangeBeginsWithTheValuesOfTheLegend) {
+  show_result();
+  auto result = std::make_shared<ViewResult>(*view_.result);
+  result->a.marks.emplace().range_high = 0.75F;  // over time; the map's own is .25
+  view_.result = result;
+  click(
+      "lock map", [this] { draw_display_panel(view_); }, 0.1F);
+  EXPECT_EQ(state_.style.map.range, (ValueRange{0, 0.75F}));
 }
 
 class TransportTest : public ViewerPanelsTest {
@@ -268,6 +279,25 @@ TEST_F(WideTest, TheOpenDialogOffersSensorsExamplesAndScenes) {
   }
 }
 
+TEST_F(WideTest, TheFormsOfSourcesAreNotBroken) {
+  std::string text;
+  settled([&] { text = forms_text("openni2[:URI], FOLDER, FILE.oni, FILE.bag", 140); });
+  EXPECT_EQ(text, "A path, or:\nopenni2[:URI],\nFOLDER, FILE.oni,\nFILE.bag");
+}
+
+TEST_F(WideTest, TheFontsHaveTheCharactersOfTheTexts) {
+  const Fonts fonts = load_fonts(1);
+  ImFontAtlas& atlas = *ImGui::GetIO().Fonts;
+  ASSERT_TRUE(atlas.Build());
+  if (fonts.bold == atlas.Fonts[0]) GTEST_SKIP() << "no font of the system";
+  const auto has = [](ImFont* font, std::u16string_view characters) {
+    for (const char16_t c : characters)
+      EXPECT_NE(font->FindGlyphNoFallback(c), nullptr) << static_cast<int>(c);
+  };
+  for (ImFont* font : {atlas.Fonts[0], fonts.bold}) has(font, u"Az09~\u00c9\u0161\u00d7\u2013\u2026\u2212");
+  has(fonts.large, u"Az09~\u2026");
+}
+
 TEST_F(WideTest, ADropDownListCanBeClosed) {
   const Draw draw = [this] { draw_tuning_panel(view_); };
   click("model", draw);
@@ -338,6 +368,38 @@ class PictureDrawingTest : public WideTest {
   PictureView picture_;
   bool is_b_ = false;
 };
+
+TEST_F(PictureDrawingTest, TheTitleNamesWhatIsCompared) {
+  auto result = std::make_shared<ViewResult>(*view_.result);
+  result->b.settings.kernel = 31;
+  view_.result = result;
+  EXPECT_EQ(picture_title(view_, false), "symmetry3d  kernel 15");
+  state_.comparison = Comparison::split;
+  EXPECT_EQ(picture_title(view_, true), "B  symmetry3d  kernel 31");
+  state_.comparison = Comparison::difference;
+  EXPECT_EQ(picture_title(view_, false), "A − B   symmetry3d  kernel 15 − symmetry3d  kernel 31");
+}
+
+TEST_F(PictureDrawingTest, EachValueOfAPixelHasItsName) {
+  EXPECT_THAT(pixel_texts({3, 4}, 812, 0.5F),
+              ::testing::ElementsAre("row 4  col 3   812 mm   saliency 0.50", "812 mm   saliency 0.50",
+                                     "saliency 0.50"));
+  EXPECT_EQ(pixel_texts({3, 4}, 0, 0)[1], "no depth   saliency 0");
+}
+
+TEST_F(PictureDrawingTest, AMarkOfBStandsForTheObjectOfAWithItsNumber) {
+  auto result = std::make_shared<ViewResult>(*view_.result);
+  view_.result = result;
+  EXPECT_EQ(fixation_of_a(*result, 1, false), 1);
+  EXPECT_EQ(fixation_of_a(*result, 1, true), -1) << "ranks name no object";
+  auto &a = result->a.result.attention.fixations, &b = result->b.result.attention.fixations;
+  a[0].id = 4;
+  a[1].id = 2;
+  b[0].id = 7;
+  b[1].id = 4;
+  EXPECT_EQ(fixation_of_a(*result, 1, true), 0);
+  EXPECT_EQ(fixation_of_a(*result, 0, true), -1);
+}
 
 TEST_F(PictureDrawingTest, TheFirstFixationIsMarkedInGreenWhereItIs) {
   draw(0, 640);

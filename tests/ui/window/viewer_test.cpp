@@ -194,6 +194,7 @@ TEST_F(ViewerTest, RecordsAndTakesSnapshots) {
   start({kTable});
   record_and_check(8);
   const std::filesystem::path snapshot = take_snapshot();
+  EXPECT_LE(now()["places"]["notice"][2], now()["places"]["splitter"][0]) << "the notice covers no control";
   std::set<std::string> kinds;
   for (const auto& entry : std::filesystem::directory_iterator(snapshot)) {
     const std::string name = entry.path().filename();
