@@ -1,4 +1,4 @@
-// What is loaded when the program starts, and what is not.
+// Which libraries the program loads at its start.
 #include <cstdlib>
 #include <filesystem>
 
