@@ -17,11 +17,13 @@ extern "C" {
 }
 
 #include "core/error.hpp"
+#include "core/worker_pool.hpp"
 
 namespace saccade {
 namespace {
 
 constexpr AVRational kMillisecond = {1, 1000};
+constexpr int kSlices = 4;  // parts of an image that are compressed at the same time; the bytes depend on it
 
 struct FreeContext {
   void operator()(AVCodecContext* context) const { avcodec_free_context(&context); }
@@ -50,6 +52,7 @@ struct Ffv1Video::Encoder {
     AVFormatContext* made = nullptr;
     check(avformat_alloc_output_context2(&made, nullptr, "matroska", path.c_str()));
     format.reset(made);
+    format->flags |= AVFMT_FLAG_BITEXACT;  // no random numbers in the file
     context.reset(avcodec_alloc_context3(codec));
     if (!frame || !packet || !context) throw std::bad_alloc();
     set_up_codec(size, pixels, rate_hz);
@@ -75,8 +78,8 @@ struct Ffv1Video::Encoder {
     context->framerate = av_d2q(rate_hz, 1'000'000);
     context->gop_size = 1;
     context->level = 3;
-    context->thread_count = 2;
-    context->slices = 4;
+    context->slices = kSlices;
+    context->thread_count = std::min(kSlices, processor_count());
     if ((format->oformat->flags & AVFMT_GLOBALHEADER) != 0) context->flags |= AV_CODEC_FLAG_GLOBAL_HEADER;
     av_opt_set_int(context.get(), "slicecrc", 1, AV_OPT_SEARCH_CHILDREN);
     av_opt_set_int(format.get(), "cluster_time_limit", 200, AV_OPT_SEARCH_CHILDREN);

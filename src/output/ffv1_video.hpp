@@ -10,8 +10,9 @@ namespace saccade {
 
 /// Writes images as an FFV1 video in Matroska, without loss: each a key frame with checksums, so that damage
 /// costs the damaged image only. The times of Matroska are in ms; equal or decreasing ones are moved 1 ms
-/// behind the one before. The file is complete after finish(); without it, it has all images but for the last
-/// few. Not for several threads at once.
+/// behind the one before. The same images and times give the same bytes, for any number of processors. The
+/// file is complete after finish(); without it, it has all images but for the last few. Not for several
+/// threads at once.
 class Ffv1Video {
  public:
   enum class Pixels { grey16, bgr8 };

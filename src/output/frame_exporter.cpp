@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/file.hpp"
+#include "core/worker_pool.hpp"
 #include "output/cloud_files.hpp"
 #include "output/dataset_writer.hpp"
 #include "output/ffv1_video.hpp"
@@ -64,7 +65,7 @@ class CloudExporter final : public FrameExporter {
   std::optional<TimesWriter> times_;
 };
 
-// FFV1 needs the frames in their order, and so add() does the work.
+// FFV1 needs the frames in their order, and so add() does the work, for depth and colour at the same time.
 class VideoExporter final : public FrameExporter {
  public:
   VideoExporter(fs::path folder, SourceInfo info) : folder_(std::move(folder)), info_(std::move(info)) {}
@@ -72,11 +73,13 @@ class VideoExporter final : public FrameExporter {
   void add(const Frame& frame) override {
     if (!depth_) begin(frame);
     times_->append(fmt::format("{} {}", position_++, frame.timestamp_us));
-    losses_ += depth_to_units(frame.depth_mm, unit_mm_, stored_);
     const std::int64_t time_us = frame.timestamp_us - first_us_;
-    depth_->write(stored_, time_us);
-    if (!frame.colour.empty() && !colour_) begin_colour(frame.size());
-    if (colour_ && !frame.colour.empty()) colour_->write(frame.colour, time_us);
+    encoders_.for_each(2, [&](int part, int) {
+      if (part == 0)
+        add_colour(frame, time_us);  // first, since it takes longer
+      else
+        add_depth(frame, time_us);
+    });
   }
   void write(const Frame&) override {}
   void finish() override {
@@ -98,6 +101,17 @@ class VideoExporter final : public FrameExporter {
     depth_.emplace(folder_ / "frames_depth.mkv", frame.size(), Ffv1Video::Pixels::grey16, rate_hz());
   }
 
+  void add_depth(const Frame& frame, std::int64_t time_us) {
+    losses_ += depth_to_units(frame.depth_mm, unit_mm_, stored_);
+    depth_->write(stored_, time_us);
+  }
+
+  void add_colour(const Frame& frame, std::int64_t time_us) {
+    if (frame.colour.empty()) return;
+    if (!colour_) begin_colour(frame.size());
+    colour_->write(frame.colour, time_us);
+  }
+
   // The times of a video count from its first image. A colour video that began later than its depth would be
   // paired wrongly, and so begins with a black image.
   void begin_colour(cv::Size size) {
@@ -113,6 +127,7 @@ class VideoExporter final : public FrameExporter {
   std::optional<Ffv1Video> depth_, colour_;
   cv::Mat1w stored_;
   DepthLosses losses_;
+  WorkerPool encoders_{2};  // one for depth, one for colour; each has threads of its own
 };
 
 template <typename Exporter>

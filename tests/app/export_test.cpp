@@ -1,4 +1,6 @@
 // `saccade export`, `run --dump depth` and `oni cut`: what was written is read back equal to the bit.
+#include <sched.h>
+
 #include <cstdlib>
 #include <filesystem>
 #include <set>
@@ -232,6 +234,27 @@ TEST_F(ExportTest, CutCopiesAPieceBitForBit) {
     const ProgramResult outcome = run_saccade({"oni", "cut", kTable, wrong, in("no.oni")});
     EXPECT_EQ(outcome.status, 2) << wrong;
     EXPECT_TRUE(outcome.one_error_line()) << outcome.err;
+  }
+}
+
+// Each with as many threads as there are processors.
+TEST_F(ExportTest, VideosHaveTheSameBytesOnAnyNumberOfProcessors) {
+  export_as(kTable, "video", {"--frames", "3"});
+  cpu_set_t all, first;
+  CPU_ZERO(&first);
+  ASSERT_EQ(::sched_getaffinity(0, sizeof all, &all), 0);
+  int processor = 0;
+  while (!CPU_ISSET(processor, &all)) ++processor;
+  CPU_SET(processor, &first);
+  ASSERT_EQ(::sched_setaffinity(0, sizeof first, &first), 0);
+  const ProgramResult outcome =
+      run_saccade({"export", kTable, "--out", in("alone"), "--format", "video", "--frames", "3"});
+  ASSERT_EQ(::sched_setaffinity(0, sizeof all, &all), 0);
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  for (const char* name : {"frames_depth.mkv", "frames_rgb.mkv"}) {
+    const std::string bytes = text(std::string("video/") + name);
+    EXPECT_GT(bytes.size(), 10'000U);
+    EXPECT_TRUE(bytes == text(std::string("alone/") + name)) << name;
   }
 }
 
