@@ -46,7 +46,8 @@ Error interrupted(const fs::path& folder) {
 // The number of frames to evaluate.
 std::int64_t count_frames(const SourceInfo& source, const FrameSettings& settings) {
   if (source.live || !source.frame_count)
-    throw usage_error("not a data set", source.uri, "images with labels are needed, not a live sensor");
+    throw usage_error("not a data set", source.uri,
+                      "images with labels are needed; saccade export makes a folder of a video");
   check_start(source, settings.start);
   return selected_frames(settings, *source.frame_count);
 }
@@ -165,7 +166,6 @@ void eval(const EvalArguments& arguments, const Settings& settings) {
   SourceInfo info = source->info();
   Settings fitting = settings;
   fit_default_levels(fitting, info);
-  report_notes(info, fitting);
   EvalPlan plan = make_plan(arguments, fitting, info);
   WorkerPool pool(worker_count(settings));
   Evaluation evaluation(plan, *source, pool);
@@ -180,7 +180,9 @@ void eval(const EvalArguments& arguments, const Settings& settings) {
   if (!before.complete) {
     LineFile file(out / kResultFile, LineFile::Existing::keep);
     Progress progress(!settings.quiet, plan.positions_of_shard() - before.images);
-    if (!evaluation.run(before.known, file, progress, interrupt)) throw interrupted(out);
+    // Notes come with the first image, since an evaluation without any reports one line, the reason.
+    const auto begin = [&] { report_notes(info, fitting); };
+    if (!evaluation.run(before.known, file, progress, interrupt, begin)) throw interrupted(out);
     file.append(end_line());
   }
   write_report(plan, {scan_results(out)}, source.get(), out, settings, pool, interrupt);

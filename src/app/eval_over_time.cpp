@@ -60,7 +60,7 @@ void eval_over_time(const EvalArguments& arguments, const Settings& settings) {
   SourceInfo info = source->info();
   if (info.live || !info.frame_count)
     throw usage_error("not a data set", info.uri,
-                      "a recorded or synthetic sequence is needed, not a live sensor");
+                      "a recorded or synthetic sequence is needed; saccade export makes a folder of a video");
   check_start(info, settings.start);
   Settings of_model = settings;
   constexpr int kUsualPoints = 10;

@@ -4,13 +4,14 @@
 
 #include <spdlog/spdlog.h>
 
+#include "app/frame_problems.hpp"
+#include "core/text.hpp"
+
 namespace saccade {
 namespace {
 
-void warn_left_out(const ImageResult& image) {
-  if (image.left_out)
-    spdlog::warn("frame {}{} left out: {}", image.frame, image.name.empty() ? "" : " (" + image.name + ")",
-                 *image.left_out);
+std::string why_left_out(const ImageResult& image) {
+  return image.name.empty() ? *image.left_out : image.name + ": " + *image.left_out;
 }
 
 }  // namespace
@@ -24,21 +25,31 @@ Evaluation::Evaluation(const EvalPlan& plan, FrameSource& source, WorkerPool& po
 }
 
 bool Evaluation::run(const std::vector<bool>& known, LineFile& file, Progress& progress,
-                     const Interrupt& interrupt) {
-  std::int64_t done = 0;
+                     const Interrupt& interrupt, const std::function<void()>& begin) {
+  std::int64_t done = 0, used = 0;
+  FrameProblems left_out;
+  const auto finish = [&](bool complete) {
+    if (used > 0 && left_out.count() > 0)  // without any used, the reason is the error that follows
+      spdlog::warn("{}: {} left out (see report.json), the first, {}", plan_.dataset,
+                   counted(left_out.count(), "image"), left_out.first());
+    return complete;
+  };
   for (std::int64_t position = plan_.shard - 1; position < plan_.positions;) {
-    if (interrupt.happened()) return false;
+    if (interrupt.happened()) return finish(false);
     Batch batch;
     for (; position < plan_.positions && batch.readable.size() < lanes_.size(); position += plan_.shards)
       if (!known[static_cast<std::size_t>(position)]) read(plan_.frame_at(position), batch);
     evaluate(batch);
     for (const ImageResult& image : batch.images) {
-      warn_left_out(image);
+      if (image.left_out)
+        left_out.add(image.frame, why_left_out(image));
+      else if (used++ == 0)
+        begin();
       file.append(image_line(image));
       progress.update(++done);
     }
   }
-  return true;
+  return finish(true);
 }
 
 // Adds the frame to the batch; if it cannot be used, its result says why.

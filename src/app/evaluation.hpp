@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -22,10 +23,11 @@ class Evaluation {
   /// All three must outlive it. Throws Error as make_model().
   Evaluation(const EvalPlan& plan, FrameSource& source, WorkerPool& pool);
 
-  /// Evaluates the positions of the plan that are not `known` and appends them to the file. False if the
-  /// interrupt ended it early. Throws Error.
+  /// Evaluates the positions of the plan that are not `known` and appends them to the file. Calls `begin`
+  /// before it appends the first that can be used. At the end warns if images were left out, unless all were.
+  /// False if the interrupt ended it early. Throws Error.
   [[nodiscard]] bool run(const std::vector<bool>& known, LineFile& file, Progress& progress,
-                         const Interrupt& interrupt);
+                         const Interrupt& interrupt, const std::function<void()>& begin);
 
  private:
   struct Batch {

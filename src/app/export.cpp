@@ -21,6 +21,7 @@
 #include "app/standard_output.hpp"
 #include "core/error.hpp"
 #include "core/folder_lock.hpp"
+#include "core/text.hpp"
 #include "output/frame_exporter.hpp"
 #include "output/writer_pool.hpp"
 #include "pipeline/pipeline.hpp"
@@ -75,7 +76,6 @@ class Export {
     const FolderLock lock(arguments_.out, "saccade export");
     report_.out = arguments_.out;
     report_.format = format.name;
-    report_notes(info, settings_);
     const auto exporter = format.make(arguments_.out, info);
     copy(std::move(source), *exporter);
     report_.interrupted = interrupt_.happened();
@@ -112,9 +112,11 @@ class Export {
     report_.wall_s = std::chrono::duration<double>(Clock::now() - begin).count();
   }
 
-  static void take_frames(Pipeline& pipeline, WriterPool& writer, FrameExporter& exporter,
-                          Progress& progress) {
+  void take_frames(Pipeline& pipeline, WriterPool& writer, FrameExporter& exporter, Progress& progress) {
+    bool first = true;
     while (ResultHandle result = pipeline.next()) {
+      // With the first frame, since an export without any reports one line, the reason, and nothing else.
+      if (std::exchange(first, false)) report_notes(report_.source, settings_);
       exporter.add(result->frame);
       writer.submit(std::move(result));
       progress.update(pipeline.ledger().processed);
@@ -141,8 +143,8 @@ class Export {
 
   void check_any_written() const {
     if (report_.ledger.processed == 0 && report_.ledger.rejected > 0)
-      throw unreadable(fmt::format("none of {} frames could be used; {}", report_.ledger.rejected,
-                                   report_.rejected.first()),
+      throw unreadable(fmt::format("none of {} could be used; the first, {}",
+                                   counted(report_.ledger.rejected, "frame"), report_.rejected.first()),
                        report_.source.uri, "is it the right file?");
   }
 

@@ -60,7 +60,6 @@ class RecordRun {
     const auto source = open_source(arguments_.source, {settings_.sensor, settings_});
     const SourceInfo& info = source->info();
     check_start(info, settings_.start);
-    for (const std::string& note : info.notes) spdlog::warn("{}: {}", info.uri, note);
     live_ = info.live;
     const Interrupt::Handler handler(interrupt_, [&] { source->interrupt(); });
     OniWriter writer(arguments_.file, writer_options(info));
@@ -69,6 +68,7 @@ class RecordRun {
       OniRecorder recorder(writer, kQueueFrames);
       Progress progress(!settings_.quiet, std::nullopt);
       take_frames(*source, recorder, progress);
+      check_any_taken();
       recorder.finish();
       report_.counts = recorder.counts();
       if (live_) report_.device = source->state();
@@ -137,7 +137,7 @@ class RecordRun {
         report_.first_rejected = fmt::format("frame {}: {}", frame.index, result.reason);
       if (result.status != ReadStatus::frame) continue;
       if (!result.reason.empty() && !live_) report_.incomplete.add(frame.index, result.reason);
-      if (taken_ == 0) first_us_ = frame.timestamp_us;
+      if (taken_ == 0) begin_frames(source.info(), frame);
       if (arguments_.duration_s > 0 && recorded_s(frame) >= arguments_.duration_s) return;
       ++taken_;
       if (live_)
@@ -145,6 +145,21 @@ class RecordRun {
       else
         recorder.push(frame);
     }
+  }
+
+  // Notes come with the first frame, since a recording without any reports one line, the reason, and nothing
+  // else.
+  void begin_frames(const SourceInfo& info, const Frame& first) {
+    first_us_ = first.timestamp_us;
+    for (const std::string& note : info.notes) spdlog::warn("{}: {}", info.uri, note);
+  }
+
+  // Without a frame the recorder removes the file.
+  void check_any_taken() const {
+    if (taken_ == 0 && report_.rejected > 0)
+      throw unreadable(fmt::format("none of {} could be used; the first, {}",
+                                   counted(report_.rejected, "frame"), report_.first_rejected),
+                       report_.source, "is it the right file?");
   }
 
   // The duration limits the time on the wall too, since the frames of a live source may stay away.

@@ -17,6 +17,7 @@
 #include "app/export_report.hpp"
 #include "app/interrupt.hpp"
 #include "app/progress.hpp"
+#include "app/run_output.hpp"
 #include "app/run_report.hpp"
 #include "app/run_resume.hpp"
 #include "app/standard_output.hpp"
@@ -25,12 +26,9 @@
 #include "core/folder_lock.hpp"
 #include "core/text.hpp"
 #include "models/model.hpp"
-#include "output/dataset_writer.hpp"
-#include "output/fixations_json.hpp"
 #include "output/frame_writer.hpp"
 #include "output/json_text.hpp"
 #include "output/line_stream.hpp"
-#include "output/writer_pool.hpp"
 #include "pipeline/pipeline.hpp"
 #include "pipeline/shard.hpp"
 #include "sources/open_source.hpp"
@@ -41,8 +39,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr int kSlotsInFlight = 4;  // one captured, one computed, one waiting at either side
-constexpr int kWriterThreads = 2;
+constexpr int kSlotsInFlight = 4;                // one captured, one computed, one waiting at either side
 constexpr std::size_t kRejectedListed = 10'000;  // so that hours with a bad sensor do not fill the memory
 
 // One `saccade run`, from open source to manifest.
@@ -98,7 +95,7 @@ class Run {
     check_dump(settings, settings.model);
     check_start(report_.source, settings.start);
     if (shard_.count > 1) choose_part();
-    if (resume_) check_can_resume();
+    if (resume_) check_can_resume(report_, tracks_objects());
     return source;
   }
 
@@ -117,19 +114,6 @@ class Run {
     report_.shard = fmt::format("{}/{}", shard_.index, shard_.count);
   }
 
-  void check_can_resume() const {
-    const auto refuse = [](const std::string& reason, const std::string& hint) {
-      return usage_error(reason, "--resume", hint);
-    };
-    if (report_.source.live) throw refuse("a live source does not give its frames again", "leave it out");
-    if (tracks_objects())
-      throw refuse("attention over time needs all frames in order",
-                   "leave it out, or take frames one by one with --tracking off");
-    for (const char* file : {"depth", "colour"})
-      if (report_.settings.dump.contains(file))
-        throw refuse(fmt::format("a data set (--dump {}) cannot be continued", file), "leave it out");
-  }
-
   // Continues an earlier run, if there is one; false if it is complete.
   bool go_on() {
     earlier_ = find_resume_point(folder_, report_, slots());
@@ -145,20 +129,7 @@ class Run {
     return true;
   }
 
-  // The selected frames that are left; none = nothing is.
-  std::optional<FrameSettings> frames_left() const {
-    FrameSettings frames = report_.settings;
-    if (!earlier_) return frames;
-    frames.start += earlier_->positions * frames.every;
-    if (frames.frames > 0) frames.frames -= earlier_->positions;
-    const bool are_limited = report_.settings.frames > 0;
-    const auto& count = report_.source.frame_count;
-    if ((are_limited && frames.frames <= 0) || (count && frames.start >= *count)) return std::nullopt;
-    return frames;
-  }
-
-  int writers() const { return report_.settings.dump.empty() ? 0 : kWriterThreads; }
-  int slots() const { return kSlotsInFlight + writers(); }
+  int slots() const { return kSlotsInFlight + RunOutput::writers(report_.settings); }
 
   void open_stream() {
     const Settings& settings = report_.settings;
@@ -179,28 +150,24 @@ class Run {
   void process(std::unique_ptr<FrameSource> source, std::unique_ptr<FrameProcessor> processor) {
     const Settings& settings = report_.settings;
     const auto begin = Clock::now();
-    const auto frames = frames_left();
+    const auto frames = frames_left(report_, earlier_);
     if (!frames) return add_earlier();
-    LineFile fixations(folder_ / "fixations.jsonl",
-                       earlier_ ? LineFile::Existing::keep : LineFile::Existing::replace);
     Progress progress(!settings.quiet, expected_frames(report_.source, *frames));
     Pipeline pipeline(std::move(source), std::move(processor), pipeline_options(*frames));
     const Interrupt::Handler handler(interrupt_, [&] {
       if (stream_) stream_->interrupt();
       pipeline.stop();
     });
-    DatasetWriter dataset(folder_, report_.source);
-    WriterPool writer(writers(), [&](const Result& result) {
-      write_frame(folder_, result, settings.dump, settings.first_level, dataset, settings.overlay);
-    });
+    RunOutput output(folder_, settings, report_.source,
+                     earlier_ ? LineFile::Existing::keep : LineFile::Existing::replace, stream_.get());
     try {
-      write_results(pipeline, writer, fixations, dataset, progress);
+      write_results(pipeline, output, progress);
     } catch (...) {
       end(pipeline, begin);
       throw;
     }
     end(pipeline, begin);
-    report_depth_losses(dataset.losses(), report_.out);
+    report_depth_losses(output.losses(), report_.out);
   }
 
   PipelineOptions pipeline_options(const FrameSettings& frames) {
@@ -218,35 +185,27 @@ class Run {
     return options;
   }
 
-  void write_results(Pipeline& pipeline, WriterPool& writer, LineFile& fixations, DatasetWriter& dataset,
-                     Progress& progress) {
-    const bool live = report_.source.live;
-    const bool dumps_dataset = report_.settings.dump.contains("depth");
+  void write_results(Pipeline& pipeline, RunOutput& output, Progress& progress) {
     std::function<std::string()> more;
-    if (live) more = [&] { return live_text(pipeline.ledger(), pipeline.latency()); };
+    if (report_.source.live) more = [&] { return live_text(pipeline.ledger(), pipeline.latency()); };
     bool first = true;
     while (ResultHandle result = pipeline.next()) {
-      // With the first result, since a run without any reports one line, the reason, and nothing else.
-      if (std::exchange(first, false)) {
-        if (has_earlier_run_) remove_frame_files(folder_);  // it may have had more frames
-        // The camera of a sensor that was connected late is known from its frames only.
-        if (live) report_.source.intrinsics = result->frame.intrinsics;
-        report_notes(report_.source, report_.settings);
-      }
-      const std::string line = fixations_json(*result);
-      fixations.append(line);
-      if (stream_) stream_->send(streamed_json(*result, line));
+      if (std::exchange(first, false)) begin_results(result->frame);
       report_.stages.add(result->times);
       report_.tracks.add(result->frame.index, result->attention);
-      if (dumps_dataset) dataset.add(result->frame);
-      writer.submit(std::move(result));
+      output.add(std::move(result));
       progress.update(pipeline.ledger().processed, more);
       if (stream_ && stream_->counts().closed) pipeline.stop();  // nobody follows any more
     }
-    if (stream_) stream_->finish();
-    writer.finish();
-    dataset.finish();
-    fixations.check_in_place();
+    output.finish();
+  }
+
+  // With the first result, since a run without any reports one line, the reason, and nothing else.
+  void begin_results(const Frame& frame) {
+    if (has_earlier_run_) remove_frame_files(folder_);  // it may have had more frames
+    // The camera of a sensor that was connected late is known from its frames only.
+    if (report_.source.live) report_.source.intrinsics = frame.intrinsics;
+    report_notes(report_.source, report_.settings);
   }
 
   // Stops and discards the last results, so that the ledger is final.

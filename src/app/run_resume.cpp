@@ -116,4 +116,28 @@ std::optional<ResumePoint> find_resume_point(const fs::path& folder, const RunRe
   return point;
 }
 
+void check_can_resume(const RunReport& report, bool tracks) {
+  const auto refuse = [](const std::string& reason, const std::string& hint) {
+    return usage_error(reason, "--resume", hint);
+  };
+  if (report.source.live) throw refuse("a live source does not give its frames again", "leave it out");
+  if (tracks)
+    throw refuse("attention over time needs all frames in order",
+                 "leave it out, or take frames one by one with --tracking off");
+  for (const char* file : {"depth", "colour"})
+    if (report.settings.dump.contains(file))
+      throw refuse(fmt::format("a data set (--dump {}) cannot be continued", file), "leave it out");
+}
+
+std::optional<FrameSettings> frames_left(const RunReport& report, const std::optional<ResumePoint>& earlier) {
+  FrameSettings frames = report.settings;
+  if (!earlier) return frames;
+  frames.start += earlier->positions * frames.every;
+  if (frames.frames > 0) frames.frames -= earlier->positions;
+  const bool are_limited = report.settings.frames > 0;
+  const auto& count = report.source.frame_count;
+  if ((are_limited && frames.frames <= 0) || (count && frames.start >= *count)) return std::nullopt;
+  return frames;
+}
+
 }  // namespace saccade

@@ -26,4 +26,12 @@ struct ResumePoint {
 [[nodiscard]] std::optional<ResumePoint> find_resume_point(const std::filesystem::path& folder,
                                                            const RunReport& report, std::int64_t unsure);
 
+/// Throws Error (usage) if the run of `report` cannot be continued: its source is live, it `tracks` objects,
+/// or it writes a data set.
+void check_can_resume(const RunReport& report, bool tracks);
+
+/// The frames that the run of `report` selects, without those that `earlier` has; none = nothing is left.
+[[nodiscard]] std::optional<FrameSettings> frames_left(const RunReport& report,
+                                                       const std::optional<ResumePoint>& earlier);
+
 }  // namespace saccade

@@ -65,6 +65,9 @@ std::vector<std::uint8_t> read_file(const std::filesystem::path& path, std::uint
   std::error_code code;
   if (is_null_device(path)) return {};
   const std::uintmax_t size = std::filesystem::file_size(path, code);
+  if (code == std::errc::not_supported)
+    throw unreadable("a pipe, socket or device instead of a file", path.string(),
+                     "copy its content to a file");
   if (code)
     throw unreadable("cannot read: " + code.message(), path.string(), "check the path and its permissions");
   if (size > limit) throw unreadable("file too large", path.string(), "is this the right file?");

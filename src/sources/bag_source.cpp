@@ -43,6 +43,10 @@ class BagSource final : public FrameSource {
       : file_(std::move(file)) {
     info_.notes = std::move(notes);
     std::vector<BagStream> streams = list_streams(*file_);
+    if (const auto& problems = file_->problems();
+        !problems.empty() && !std::ranges::any_of(streams, &BagStream::is_depth))
+      throw unreadable("no depth is left in this damaged file; " + problems.front(), input.uri,
+                       "copy it again, or choose another");
     const ChosenStreams chosen = choose_streams(streams, settings, input.uri);
     depth_ = std::move(streams[chosen.depth]);
     if (chosen.colour) colour_ = std::move(streams[*chosen.colour]);
@@ -78,7 +82,7 @@ class BagSource final : public FrameSource {
         throw std::runtime_error(fmt::format("{}x{} instead of {}x{}", frame.size().width,
                                              frame.size().height, info_.size.width, info_.size.height));
     } catch (const std::runtime_error& error) {
-      return {ReadStatus::rejected, fmt::format("frame {}: {}", frame.index, error.what())};
+      return {ReadStatus::rejected, error.what()};
     }
     return {ReadStatus::frame, read_colour(message.stamp_ns, frame.colour)};
   }

@@ -224,6 +224,8 @@ Route route_of(VideoFile& file) {
     if (codec.format == AV_PIX_FMT_GRAY16LE && codec.codec_id == AV_CODEC_ID_FFV1) return Route::ffv1;
     throw unreadable("16-bit grey in a codec that need not keep every bit", path, kExactRoutes);
   }
+  if (codec.codec_id == AV_CODEC_ID_NONE)
+    throw unreadable("no codec is known for this video", path, "the file may be damaged");
   if (file.path().stem().string().ends_with("_depth"))
     throw unreadable("this depth video has 8 bits a pixel, or would be flattened to 8", path, kExactRoutes);
   return Route::none;

@@ -101,14 +101,4 @@ Intrinsics read_camera_matrix(const fs::path& file) {
   return camera;
 }
 
-std::optional<cv::Affine3d> read_pose(const fs::path& file) {
-  constexpr double kMmPerMetre = 1000;
-  const std::vector<double> m = read_numbers(file);
-  if (m.size() != 16) throw unreadable("not a 4 x 4 matrix", file.string(), "fix or delete it");
-  if (!std::ranges::all_of(m, [](double value) { return std::isfinite(value); })) return std::nullopt;
-  cv::Affine3d pose(cv::Matx44d(m.data()));
-  pose.translation(pose.translation() * kMmPerMetre);
-  return pose;
-}
-
 }  // namespace saccade

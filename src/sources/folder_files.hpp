@@ -8,8 +8,6 @@
 #include <string_view>
 #include <vector>
 
-#include <opencv2/core/affine.hpp>
-
 #include "core/intrinsics.hpp"
 
 namespace saccade {
@@ -42,10 +40,6 @@ std::vector<double> read_numbers(const std::filesystem::path& file, std::uintmax
 
 /// The camera of a 3 x 3 or 4 x 4 matrix (px) of such a file. Throws Error (unreadable) if it is none.
 Intrinsics read_camera_matrix(const std::filesystem::path& file);
-
-/// The pose of a 4 x 4 matrix of such a file, camera to world in metres, as GroundTruth has it; std::nullopt
-/// if it has numbers that are not finite, which stand for a lost camera. Throws Error (unreadable).
-std::optional<cv::Affine3d> read_pose(const std::filesystem::path& file);
 
 /// Endings of images that may hold colour.
 inline const std::vector<std::string> kColourEndings = {".png", ".jpg", ".jpeg"};

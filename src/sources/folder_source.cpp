@@ -16,6 +16,13 @@ namespace saccade {
 namespace fs = std::filesystem;
 namespace {
 
+// Why a file cannot be used. An Error names the file itself.
+std::string reason_of(const fs::path& file, const std::runtime_error& error) {
+  return dynamic_cast<const Error*>(&error) != nullptr
+             ? error.what()
+             : fmt::format("{}: {}", file.filename().string(), error.what());
+}
+
 class FolderSource final : public FrameSource {
  public:
   FolderSource(const SourceInput& input, const fs::path& folder, std::string_view kind, FolderListing listing,
@@ -53,7 +60,7 @@ class FolderSource final : public FrameSource {
     try {
       read_depth_file(entry.depth, info_.size, form_, frame.depth_mm, frame.colour);
     } catch (const std::runtime_error& error) {  // an Error, or the reason of a decoder
-      return {ReadStatus::rejected, fmt::format("{}: {}", entry.depth.filename().string(), error.what())};
+      return {ReadStatus::rejected, reason_of(entry.depth, error)};
     }
     return {ReadStatus::frame, read_companions(entry, frame)};
   }
@@ -61,14 +68,20 @@ class FolderSource final : public FrameSource {
  private:
   // All frames have one size: that of the first whose header makes sense.
   cv::Size first_size() const {
-    std::optional<std::string> first_problem;
+    std::optional<Error> problem;  // the first
     for (const FolderEntry& entry : listing_.entries) try {
         return read_depth_size(entry.depth);
+      } catch (const Error& error) {
+        if (!problem) problem = error;
       } catch (const std::runtime_error& error) {
-        if (!first_problem) first_problem = entry.depth.filename().string() + ": " + error.what();
+        if (!problem) problem = no_depth(reason_of(entry.depth, error));
       }
-    throw unreadable("no usable depth image; " + first_problem.value_or(""), info_.uri,
-                     "depth must be 16-bit grey PNG or an organised PCD or PLY, at least 8 pixels a side");
+    throw problem.value_or(no_depth("it is empty"));
+  }
+
+  Error no_depth(const std::string& why) const {
+    return unreadable("no usable depth image; " + why, info_.uri,
+                      "depth must be 16-bit grey PNG or an organised PCD or PLY, at least 8 pixels a side");
   }
 
   void set_unit(const FolderMeta& meta, const InputSettings& settings) {
@@ -100,7 +113,7 @@ class FolderSource final : public FrameSource {
     try {
       return read_cloud_camera(listing_.cloud);
     } catch (const std::runtime_error& error) {
-      info_.notes.push_back(fmt::format("{}: {}", listing_.cloud.filename().string(), error.what()));
+      info_.notes.push_back(reason_of(listing_.cloud, error));
       return std::nullopt;
     }
   }
@@ -113,8 +126,7 @@ class FolderSource final : public FrameSource {
       try {
         read();
       } catch (const std::runtime_error& error) {
-        problems += fmt::format("{}no {}: {}: {}", problems.empty() ? "" : "; ", what,
-                                path.filename().string(), error.what());
+        problems += fmt::format("{}no {}: {}", problems.empty() ? "" : "; ", what, reason_of(path, error));
       }
     };
     if (!entry.colour.empty()) frame.colour.release();

@@ -164,11 +164,10 @@ ReadResult OniSource::read(Frame& frame, std::chrono::milliseconds) {
   frame.truth = {};
   frame.intrinsics = info_.intrinsics;
   if (const OniFormat format = recording_.format(*depth_, k); !format.unusable && format.size != info_.size)
-    return {ReadStatus::rejected, fmt::format("frame {}: {} x {} instead of {} x {}", k, format.size.width,
+    return {ReadStatus::rejected, fmt::format("{} x {} instead of {} x {}", format.size.width,
                                               format.size.height, info_.size.width, info_.size.height)};
   if (const Outcome depth = recording_.read_depth(*depth_, k, frame.depth_mm); !depth)
-    return {ReadStatus::rejected,
-            fmt::format("frame {} at byte {}: {}", k, entry.payload_position, depth.reason())};
+    return {ReadStatus::rejected, fmt::format("at byte {}: {}", entry.payload_position, depth.reason())};
   if (info_.depth_unit_mm != stored_unit_mm_) {
     depth_to_units(frame.depth_mm, stored_unit_mm_, stored_);
     depth_from_units(stored_, info_.depth_unit_mm, frame.depth_mm);

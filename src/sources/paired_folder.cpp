@@ -94,23 +94,22 @@ FolderListing list_paired(const fs::path& folder) {
   const Companions labels = companions(kLabelFolders, {".png"});
   const Companions poses = companions(kPoseFolders, {".txt"});
   std::map<std::int64_t, FolderEntry> numbered;
-  bool posed = false;
+  FramePoses frame_poses;
   for (const auto& [stem, path] : depth) {
     FolderEntry entry;
     entry.name = stem;
     entry.depth = path;
     entry.colour = colour.of(stem, only_one);
     entry.label = labels.of(stem, only_one);
-    if (const fs::path pose = poses.of(stem, only_one); !pose.empty()) {
-      entry.camera_to_world = read_pose(pose);
-      posed = true;
-    }
+    entry.camera_to_world = frame_poses.read(poses.of(stem, only_one));
     const auto number = first_number(stem);
     const auto next = numbered.empty() ? 0 : numbered.rbegin()->first + 1;
     // Names whose numbers do not count up are taken in their order.
     numbered.emplace(number && *number >= next ? *number : next, std::move(entry));
   }
   FolderListing listing = list_by_number(std::move(numbered));
+  frame_poses.add_note(listing.notes);
+  bool posed = frame_poses.any();
   const fs::path trajectory = folder / "trajectory.log";
   if (!posed && is_there(trajectory))
     for (const auto& [position, pose] : read_trajectory(trajectory))

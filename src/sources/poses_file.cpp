@@ -13,6 +13,7 @@
 
 #include "core/error.hpp"
 #include "core/file.hpp"
+#include "core/text.hpp"
 #include "sources/folder_files.hpp"
 
 namespace saccade {
@@ -88,6 +89,25 @@ std::map<std::int64_t, cv::Affine3d> read_trajectory(const fs::path& file) {
       poses.emplace(static_cast<std::int64_t>(numbers[i]), *pose);
   }
   return poses;
+}
+
+std::optional<cv::Affine3d> FramePoses::read(const fs::path& file) {
+  if (file.empty()) return std::nullopt;
+  ++files_;
+  try {
+    const std::vector<double> numbers = read_numbers(file);
+    if (numbers.size() == 16) return pose_of(numbers.data());
+    throw unreadable("not a 4 x 4 matrix", file.string(), "fix or delete it");
+  } catch (const Error& error) {
+    if (broken_++ == 0) first_problem_ = error.what();
+    return std::nullopt;
+  }
+}
+
+void FramePoses::add_note(std::vector<std::string>& notes) const {
+  if (broken_ > 0)
+    notes.push_back(fmt::format("{} of {} cannot be used; the first: {}", broken_, counted(files_, "pose"),
+                                first_problem_));
 }
 
 TimedPoses::TimedPoses(const fs::path& file) {

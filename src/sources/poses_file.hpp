@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include <opencv2/core.hpp>
@@ -19,6 +20,21 @@ namespace saccade {
 /// The poses of a trajectory.log of Open3D and Redwood: for each frame three integers, of which the first is
 /// its position, and a 4 x 4 matrix as above. Gives them in mm, by position. Throws Error (unreadable).
 [[nodiscard]] std::map<std::int64_t, cv::Affine3d> read_trajectory(const std::filesystem::path& file);
+
+/// Camera poses in a file for each frame: a 4 x 4 matrix, camera to world in metres.
+class FramePoses {
+ public:
+  /// The pose (mm) of a file; std::nullopt if the name is empty, if the numbers are not finite, which stands
+  /// for a lost camera, or if the file cannot be read, which is a note.
+  std::optional<cv::Affine3d> read(const std::filesystem::path& file);
+
+  bool any() const { return files_ > 0; }  ///< a file was named
+  void add_note(std::vector<std::string>& notes) const;
+
+ private:
+  std::int64_t files_ = 0, broken_ = 0;
+  std::string first_problem_;
+};
 
 /// A camera's way through the world, by times.
 class TimedPoses {

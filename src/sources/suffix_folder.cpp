@@ -8,6 +8,7 @@
 #include "core/error.hpp"
 #include "sources/folder_files.hpp"
 #include "sources/numbered_frames.hpp"
+#include "sources/poses_file.hpp"
 
 namespace saccade {
 namespace fs = std::filesystem;
@@ -61,7 +62,7 @@ FolderListing list_suffixed(const fs::path& folder) {
   const SuffixLayout& layout = *layout_of(folder);
   const FolderNames names(folder);
   std::map<std::int64_t, FolderEntry> found;
-  bool posed = false;
+  FramePoses poses;
   for (const std::string& name : names.all()) {
     const auto stem = stem_of(name, layout);
     if (!stem) continue;
@@ -74,17 +75,15 @@ FolderListing list_suffixed(const fs::path& folder) {
     entry.colour = with(layout.colour_png);
     if (entry.colour.empty()) entry.colour = with(layout.colour_jpg);
     entry.label = with(layout.label);
-    if (const fs::path pose = with(layout.pose); !pose.empty()) {
-      entry.camera_to_world = read_pose(pose);
-      posed = true;
-    }
+    entry.camera_to_world = poses.read(with(layout.pose));
     if (!found.emplace(last_number(*stem).value_or(0), entry).second)
       throw unreadable("two depth images have the same number", entry.depth.string(), "rename or delete one");
   }
   FolderListing listing = list_by_number(std::move(found));
   listing.mm_per_unit = layout.mm_per_unit;
   listing.camera = layout.camera;
-  listing.sequence = posed;
+  listing.sequence = poses.any();
+  poses.add_note(listing.notes);
   listing.notes.emplace_back("the camera is that of the data set's description; meta.json can name another");
   return listing;
 }

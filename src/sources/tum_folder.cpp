@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <optional>
@@ -24,6 +25,10 @@ struct TimedFile {
   std::string stamp;
   fs::path path;
 };
+
+bool has_control_characters(const std::string& name) {
+  return std::ranges::any_of(name, [](unsigned char c) { return std::iscntrl(c) != 0; });
+}
 
 // A list may come from somebody else: it must not lead to other files of this machine.
 bool is_inside(const fs::path& name) {
@@ -52,7 +57,8 @@ std::vector<TimedFile> read_tum_list(const fs::path& list) {
     fields >> stamp >> name;
     double time_s = 0;
     const auto [end, code] = std::from_chars(stamp.data(), stamp.data() + stamp.size(), time_s);
-    if (code != std::errc{} || end != stamp.data() + stamp.size() || !std::isfinite(time_s) || name.empty())
+    if (code != std::errc{} || end != stamp.data() + stamp.size() || !std::isfinite(time_s) || name.empty() ||
+        has_control_characters(name))
       throw unreadable("not a 'timestamp filename' line", fmt::format("{}:{}", list.string(), number), kHint);
     if (!is_inside(name))
       throw unreadable("a file outside of the folder", fmt::format("{}:{}", list.string(), number),

@@ -49,7 +49,8 @@ class Options {
 };
 
 Error no_video(int code, const fs::path& path) {
-  return unreadable(fmt::format("no video that can be read: {}", reason_of(code)), path.string(), kHint);
+  return unreadable(fmt::format("no video that can be read: {}", reason_of(code)), path.string(),
+                    code == AVERROR(EACCES) ? "check its permissions" : kHint);
 }
 
 std::span<AVStream* const> streams_of(const AVFormatContext& format) {
@@ -62,6 +63,15 @@ bool is_video(const AVStream& stream) { return stream.codecpar->codec_type == AV
 std::string_view value_of(const AVStream& stream, const char* key) {
   const AVDictionaryEntry* entry = av_dict_get(stream.metadata, key, nullptr, 0);
   return entry == nullptr ? "" : entry->value;
+}
+
+// libavformat writes raw 16-bit grey into AVI and MOV by these names, but does not know them when it reads.
+void name_raw_grey(AVCodecParameters& codec) {
+  if (codec.codec_type != AVMEDIA_TYPE_VIDEO || codec.codec_id != AV_CODEC_ID_NONE) return;
+  const bool little = codec.codec_tag == MKTAG('Y', '1', 0, 16);
+  if (!little && codec.codec_tag != MKTAG(16, 0, '1', 'Y')) return;
+  codec.codec_id = AV_CODEC_ID_RAWVIDEO;
+  codec.format = little ? AV_PIX_FMT_GRAY16LE : AV_PIX_FMT_GRAY16BE;
 }
 
 }  // namespace
@@ -112,6 +122,7 @@ void VideoFile::open() {
   for (AVDictionary*& list : lists) av_dict_free(&list);
   if (code == AVERROR(ENOMEM)) throw std::bad_alloc();
   if (code < 0) throw no_video(code, path_);
+  for (AVStream* stream : streams_of(*format_)) name_raw_grey(*stream->codecpar);
 }
 
 void VideoFile::choose(std::string_view title) {

@@ -103,7 +103,7 @@ class DepthVideoSource final : public FrameSource {
       if (!depth_->read(image_, frame.timestamp_us)) return {ReadStatus::end, ""};
       depth_from_units(image_, info_.depth_unit_mm, frame.depth_mm);
     } catch (const std::runtime_error& error) {
-      return {ReadStatus::rejected, fmt::format("frame {}: {}", frame.index, error.what())};
+      return {ReadStatus::rejected, error.what()};
     }
     const bool has_colour =
         colour_ && colour_->nearest(frame.timestamp_us - colour_delay_us_, tolerance_us_, colour_image_);
@@ -175,7 +175,7 @@ class ColourVideoSource final : public FrameSource {
       if (!video_->read(frame.colour, frame.timestamp_us)) return {ReadStatus::end, ""};
       if (frame.colour.size() != info_.size) throw std::runtime_error("another size than the first image");
     } catch (const std::runtime_error& error) {
-      return {ReadStatus::rejected, fmt::format("frame {}: {}", frame.index, error.what())};
+      return {ReadStatus::rejected, error.what()};
     }
     set_no_depth(frame, info_.size);
     return {ReadStatus::frame, ""};

@@ -81,6 +81,34 @@ TEST_F(WrongInputs, SourcesOfEveryCommandThatTakesOne) {
   }
 }
 
+// Each thing is said once: what a file is called, and which frame it is.
+TEST_F(WrongInputs, ReasonsDoNotRepeatThemselves) {
+  fs::create_directories(folder_ / "d/0_depth.png");
+  const std::string unreadable = in("d/0_depth.png");
+  expect(kUnreadable, "saccade: cannot read: Is a directory: " + unreadable + " (",
+         "$P run " + in("d") + " --out o");
+  put_depth("d/1_depth.png");
+  const ProgramResult run = shell("$P run " + in("d") + " --levels 0..2 --quiet --out o");
+  EXPECT_EQ(run.status, kDone);
+  EXPECT_THAT(run.err, HasSubstr("frame 0: cannot read: Is a directory: " + unreadable + " ("));
+
+  ASSERT_EQ(shell("$P export '" + kScene + "' --out v --format video --quiet").status, kDone);
+  const auto size = fs::file_size(folder_ / "v/frames_depth.mkv");
+  fs::resize_file(folder_ / "v/frames_depth.mkv", size - 2000);
+  const ProgramResult video = shell("$P export v/frames_depth.mkv --out w");
+  EXPECT_EQ(video.status, kDone);
+  EXPECT_THAT(video.err, HasSubstr("1 frame rejected, the first, frame 1: the image is"));
+}
+
+// What a source notes comes with its first frame, so that the reason is the only line.
+TEST_F(WrongInputs, WithoutAUsableFrameTheReasonIsTheOnlyLine) {
+  put_depth("d/0_depth.png");
+  fs::resize_file(folder_ / "d/0_depth.png", 60);
+  for (const char* command : {"run d --levels 0..2 --out o", "export d --out e", "record d o.oni"})
+    expect(kUnreadable, "0_depth.png: not a valid PNG", fmt::format("$P {}", command));
+  EXPECT_FALSE(fs::exists(folder_ / "o.oni"));
+}
+
 TEST_F(WrongInputs, Outputs) {
   ASSERT_EQ(shell("$P record '" + kScene + "' a.oni --quiet").status, kDone);
   const std::string recording = text("a.oni");

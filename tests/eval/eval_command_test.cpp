@@ -244,12 +244,24 @@ TEST_F(EvalTest, FramesWhoseLabelsDoNotFitAreNamedAndLeftOut) {
   put("0001_label.png", labels(cv::Rect(0, 0, 80, 60)));
   const ProgramResult outcome = eval("out", {}, in("data"));
   EXPECT_EQ(outcome.status, 0) << outcome.err;
-  EXPECT_THAT(outcome.err, HasSubstr("frame 1 (0001) left out: no labels: 0001_label.png: 80x60"));
-  EXPECT_THAT(outcome.err, HasSubstr("frame 2 (0002) left out: it has no label image"));
+  EXPECT_THAT(outcome.err,
+              HasSubstr("2 images left out (see report.json), the first, frame 1: 0001: no labels: "
+                        "0001_label.png: 80x60"));
   const json all = report("out");
   EXPECT_EQ(all["images"], 1);
   ASSERT_EQ(all["left_out"].size(), 2U);
   EXPECT_EQ(all["left_out"][0]["name"], "0001");
+  EXPECT_EQ(all["left_out"][1]["reason"], "it has no label image");
+}
+
+TEST_F(EvalTest, WithoutAnyLabelTheReasonIsTheOnlyLine) {
+  for (const char* name : {"0000", "0001"})
+    put(std::string(name) + "_depth.png", cv::Mat1w(120, 160, std::uint16_t{1000}));
+  const ProgramResult outcome = eval("out", {}, in("data"));
+  EXPECT_EQ(outcome.status, 3);
+  EXPECT_TRUE(outcome.one_error_line());
+  EXPECT_THAT(outcome.err,
+              HasSubstr("none of 2 images could be evaluated; the first: it has no label image"));
 }
 
 TEST_F(EvalTest, SelectsFramesAndPrintsJson) {

@@ -391,6 +391,14 @@ TEST_F(BagSourceTest, ATruncatedFileGivesWhatItHolds) {
   EXPECT_EQ(source->read(frame, kNoWait).status, ReadStatus::frame);
 }
 
+// That it is damaged is the reason, not that it holds no topic of depth.
+TEST_F(BagSourceTest, AFileOfWhichNoDepthIsLeftIsCalledDamaged) {
+  write_ros1_bag(folder_ / "a.bag", recording(false), "lz4");
+  fs::resize_file(folder_ / "a.bag", fs::file_size(folder_ / "a.bag") / 2);  // in its only chunk
+  EXPECT_THAT(complaint(in("a.bag"), ExitStatus::unreadable),
+              AllOf(HasSubstr("no depth is left in this damaged file; "), HasSubstr("truncated")));
+}
+
 // Every byte that lies, and every length cut: an error or frames, and no access outside of the memory.
 TEST_F(BagSourceTest, DamagedFilesNeverCrash) {
   write_ros1_bag(folder_ / "a.bag", recording(false), "none");

@@ -64,6 +64,7 @@ void write_video(const std::filesystem::path& path, const Encoding& encoding, in
                  const std::function<void(AVFrame&, int k)>& fill) {
   AVFormatContext* format = nullptr;
   check(avformat_alloc_output_context2(&format, nullptr, nullptr, path.c_str()), "container");
+  format->strict_std_compliance = FF_COMPLIANCE_EXPERIMENTAL;  // raw 16-bit grey in MOV
   AVCodecContext* encoder = open_encoder(encoding, (format->oformat->flags & AVFMT_GLOBALHEADER) != 0);
   AVStream* stream = avformat_new_stream(format, nullptr);
   stream->time_base = encoder->time_base;
@@ -119,6 +120,18 @@ void write_ffv1(const std::filesystem::path& path, const std::vector<cv::Mat1w>&
       set,    options.container_crc};
   write_video(path, encoding, static_cast<int>(images.size()),
               [&](AVFrame& frame, int k) { put_rows(frame, 0, images[static_cast<std::size_t>(k)]); });
+}
+
+void write_raw_grey(const std::filesystem::path& path, const std::vector<cv::Mat1w>& images,
+                    bool big_endian) {
+  const auto pixels = big_endian ? AV_PIX_FMT_GRAY16BE : AV_PIX_FMT_GRAY16LE;
+  const Encoding encoding{"rawvideo", pixels, images.at(0).size(), 30, 1, [](AVCodecContext&) {}};
+  write_video(path, encoding, static_cast<int>(images.size()), [&](AVFrame& frame, int k) {
+    cv::Mat1w image = images[static_cast<std::size_t>(k)].clone();
+    if (big_endian)
+      for (std::uint16_t& value : image) value = static_cast<std::uint16_t>(value << 8 | value >> 8);
+    put_rows(frame, 0, image);
+  });
 }
 
 void write_mpeg4(const std::filesystem::path& path, const std::vector<cv::Mat1b>& images,

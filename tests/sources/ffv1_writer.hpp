@@ -20,6 +20,9 @@ struct Ffv1Options {
 void write_ffv1(const std::filesystem::path& path, const std::vector<cv::Mat1w>& images,
                 const Ffv1Options& options = {});
 
+/// The same uncompressed, as gray16le or gray16be at 30 Hz.
+void write_raw_grey(const std::filesystem::path& path, const std::vector<cv::Mat1w>& images, bool big_endian);
+
 struct Mpeg4Options {
   int key_every = 1, b_frames = 0;
   bool container_crc = true;

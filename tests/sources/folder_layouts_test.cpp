@@ -91,6 +91,10 @@ TEST_F(FolderLayouts, ScanNetHasPosesAndColourOfAnotherSize) {
   EXPECT_EQ(frames[0].truth.camera_to_world->translation(), cv::Vec3d(500, 0, 2000));
   EXPECT_FALSE(frames[1].truth.camera_to_world) << "the camera was lost";
   EXPECT_TRUE(open_source(folder_.string())->info().sequence);
+  put_text("pose/0.txt", "no numbers");
+  EXPECT_FALSE(read("paired")[0].truth.camera_to_world);
+  EXPECT_THAT(open_source(folder_.string())->info().notes,
+              Contains(HasSubstr("1 of 3 poses cannot be used; the first: not only numbers: ")));
 }
 
 TEST_F(FolderLayouts, ATrajectoryOfOpen3dGivesPosesByPosition) {
@@ -169,6 +173,13 @@ TEST_F(FolderLayouts, SevenScenesAndYcb) {
   EXPECT_EQ(seven[1].depth_mm(1, 1), 1500);
   EXPECT_EQ(seven[1].intrinsics.fx, 585);
   EXPECT_EQ(seven[1].truth.camera_to_world->translation()[0], 1000);
+  put_text("seven/frame-000000.pose.txt", "1 0 0 1\n0 1 0");  // cut
+  const auto cut = read("suffix", "seven");
+  ASSERT_EQ(cut.size(), 2U) << "depth does not need its pose";
+  EXPECT_FALSE(cut[0].truth.camera_to_world);
+  EXPECT_TRUE(cut[1].truth.camera_to_world);
+  EXPECT_THAT(open_source((folder_ / "seven").string())->info().notes,
+              Contains(HasSubstr("1 of 2 poses cannot be used; the first: not a 4 x 4 matrix: ")));
   put_depth("ycb/000001-depth.png", 12345);
   put_colour("ycb/000001-color.png", 4);
   put("ycb/000001-label.png", cv::Mat1b(12, 16, std::uint8_t{5}));

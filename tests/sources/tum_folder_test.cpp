@@ -95,6 +95,15 @@ TEST_F(TumFolderTest, TumListsCannotLeadOutOfTheFolder) {
   }
 }
 
+// Such a line is damaged, and no name of a file.
+TEST_F(TumFolderTest, NamesWithControlCharactersAreRefused) {
+  put_text("depth.txt", std::string_view("1.0 depth\0.png\n", 15));
+  EXPECT_THAT(error(), HasSubstr("not a 'timestamp filename' line"));
+  put_text("depth.txt", "1.0 d\xe9p.png\n");  // as in file systems of before UTF-8
+  put_depth("d\xe9p.png", 5000);
+  EXPECT_EQ(open_source(folder_.string())->info().frame_count, 1);
+}
+
 TEST_F(TumFolderTest, LongTumListsArePairedInALittleTime) {
   std::string depth, colour;
   for (int k = 0; k < 100'000; ++k) {

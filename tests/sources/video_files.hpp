@@ -12,7 +12,6 @@
 #include <string>
 #include <vector>
 
-#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <opencv2/core.hpp>
 
@@ -96,7 +95,8 @@ std::vector<ReadStatus> read_positions(FrameSource& source, const Check& check) 
     all.push_back(read.status);
     EXPECT_EQ(frame.index, k);
     if (read.status == ReadStatus::rejected)
-      EXPECT_THAT(read.reason, ::testing::HasSubstr(fmt::format("frame {}: ", k)));
+      // Whoever reports it names the frame.
+      EXPECT_THAT(read.reason, ::testing::Not(::testing::AnyOf("", ::testing::StartsWith("frame "))));
     else
       check(k, frame);
   }
