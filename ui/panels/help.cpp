@@ -69,6 +69,8 @@ constexpr std::array<Row, 14> kGlossary = {{
     {"Registration", "Depth as seen from the colour camera, so that both images match pixel by pixel."},
 }};
 
+constexpr double kKeysWidth = 390;  // that the keys and what they do have room in
+
 template <std::size_t N>
 void draw_rows(ViewContext& view, const std::array<Row, N>& rows, double width) {
   for (const auto& [name, text] : rows) {
@@ -102,7 +104,8 @@ void draw_heading(ViewContext& view, const char* text) {
 }
 
 void draw_keys_and_mouse(ViewContext& view) {
-  if (!ImGui::BeginTable("keys", 2)) return;
+  const int columns = ImGui::GetContentRegionAvail().x < view.px(2 * kKeysWidth) ? 1 : 2;
+  if (!ImGui::BeginTable("keys", columns)) return;
   ImGui::TableNextColumn();
   for (const char* group : {"Playing", "Tuning"}) {
     draw_heading(view, group);

@@ -30,8 +30,11 @@ void draw_welcome(ViewContext& view, ImVec2 low, ImVec2 high) {
   explain(with_key("Lists connected sensors, recent sources, examples and folders", Action::open_source));
   log_place(view, "welcome open");
   ImGui::SameLine();
+  if (ImGui::GetContentRegionAvail().x < ImGui::CalcTextSize("Help").x + 2 * ImGui::GetStyle().FramePadding.x)
+    ImGui::NewLine();
   if (ImGui::Button("Help")) view.act(Action::show_help);
   explain(with_key("Keys, mouse, what the colours mean, and a glossary", Action::show_help));
+  log_place(view, "welcome help");
   ImGui::Checkbox("Show this at the start", &view.state.welcome);
   explain("This card appears when the viewer is started without a SOURCE");
   ImGui::SameLine();

@@ -328,6 +328,34 @@ TEST_F(WideTest, TheHelpShowsEveryShortcutAndFits) {
   EXPECT_FALSE(help.is_open());
 }
 
+// 1280 x 800 at scale 2.
+class NarrowTest : public ViewerPanelsTest {
+ protected:
+  NarrowTest() : ViewerPanelsTest(640, 400) {}
+};
+
+TEST_F(NarrowTest, TheKeysOfTheHelpFit) {
+  HelpDialog help;
+  help.toggle();
+  const Draw draw = [&] { help.draw(view_); };
+  settled(draw);
+  settled(draw);
+  const ImGuiTable* keys = nullptr;
+  for (int i = 0; i < ImGui::GetCurrentContext()->Tables.GetMapSize(); ++i)
+    if (const ImGuiTable* table = ImGui::GetCurrentContext()->Tables.TryGetMapData(i)) keys = table;
+  ASSERT_NE(keys, nullptr);
+  for (int i = 0; i < keys->ColumnsCount; ++i)
+    EXPECT_LE(keys->Columns[i].ContentMaxXUnfrozen, keys->Columns[i].WorkMaxX) << i;
+}
+
+TEST_F(NarrowTest, TheWelcomeCardHoldsItsButtons) {
+  view_.welcome = true;
+  settled([this] { draw_welcome(view_, {0, 0}, {300, 400}); });
+  const float right = 300 - view_.px(12);
+  EXPECT_LE(view_.places.at("welcome open")[2], right);
+  EXPECT_LE(view_.places.at("welcome help")[2], right);
+}
+
 TEST_F(WideTest, TheStateIsShownInTheMiddleOnlyWhileSomethingIsWrong) {
   const Draw draw = [this] { draw_state_banner(view_, {0, 0}, {1280, 800}); };
   ImVec2 low, high;
