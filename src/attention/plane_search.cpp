@@ -1,5 +1,6 @@
 #include "attention/plane_search.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace saccade {
@@ -62,20 +63,26 @@ std::optional<InversePlane> PlaneSearch::best_candidate(const SurfaceGrid& grid)
     if (seed == before) continue;
     before = seed;
     const auto candidate = tangent_plane(grid, with_normal_[seed]);
-    const int count = candidate ? votes(*candidate) : 0;
+    const int count = candidate ? votes(*candidate, most) : 0;
     if (count > most) most = count, best = candidate;
   }
   return best;
 }
 
-// A sum of ones and no branch, so that compilers make vectors of it.
-int PlaneSearch::votes(const InversePlane& plane) const {
+// Of a plane that has more than `least`; else any number up to that, since the count ends when the rest is
+// too few. A sum of ones and no branch within a block, so that compilers make vectors of it.
+int PlaneSearch::votes(const InversePlane& plane, int least) const {
+  constexpr int kBlock = 256;
   const float a = static_cast<float>(plane.a), b = static_cast<float>(plane.b),
               c = static_cast<float>(plane.c);
   const float *col = col_.data(), *row = row_.data(), *w = w_.data();
+  const int cells = static_cast<int>(w_.size());
   int count = 0;
-  for (std::size_t i = 0; i < w_.size(); ++i)
-    count += std::abs(a * col[i] + b * row[i] + c - w[i]) <= kCandidateReach * w[i] ? 1 : 0;
+  for (int begin = 0; begin < cells && count + (cells - begin) > least; begin += kBlock) {
+    const int end = std::min(begin + kBlock, cells);
+    for (int i = begin; i < end; ++i)
+      count += std::abs(a * col[i] + b * row[i] + c - w[i]) <= kCandidateReach * w[i] ? 1 : 0;
+  }
   return count;
 }
 

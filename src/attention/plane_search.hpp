@@ -42,7 +42,7 @@ class PlaneSearch {
  private:
   void sample(const SurfaceGrid& grid, std::span<const int> cells);
   std::optional<InversePlane> best_candidate(const SurfaceGrid& grid) const;
-  int votes(const InversePlane& plane) const;
+  int votes(const InversePlane& plane, int least) const;
   bool refine(InversePlane& plane, double reach) const;
   double share_in(const InversePlane& plane) const;
 

@@ -1,8 +1,13 @@
 #include "attention/proto_objects.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+
+#include <opencv2/core/hal/intrin.hpp>
+
+#include "attention/cell_pixels.hpp"
 
 namespace saccade {
 namespace {
@@ -47,7 +52,7 @@ void ProtoObjects::list_cells_of_segments() {
 
 void ProtoObjects::set_rays(const Intrinsics& camera) {
   const cv::Size size = depth_mm_->size();
-  ray_x_.resize(at(size.width));
+  ray_x_.assign(at(grid_->cols() * kCell), 0.0F);
   ray_y_.resize(at(size.height));
   for (int c = 0; c < size.width; ++c) ray_x_[at(c)] = static_cast<float>((c - camera.cx) / camera.fx);
   for (int r = 0; r < size.height; ++r) ray_y_[at(r)] = static_cast<float>((r - camera.cy) / camera.fy);
@@ -78,37 +83,46 @@ cv::Point ProtoObjects::fixated_pixel(const cv::Mat1f& saliency, int cell) const
 }
 
 ProtoObject ProtoObjects::paint(const std::vector<int>& cells, cv::Mat1w& masks, int rank) const {
-  ProtoObject object;
+  using Lanes = cv::v_float32x4;  // the columns of a cell
+  static_assert(kCell == Lanes::nlanes);
   constexpr float kFar = std::numeric_limits<float>::max();
-  cv::Point3f low(kFar, kFar, kFar), high(-kFar, -kFar, -kFar);
+  const Lanes one = cv::v_setall_f32(1), far = cv::v_setall_f32(kFar), near = cv::v_setall_f32(-kFar);
+  std::array<Lanes, 3> low = {far, far, far}, high = {near, near, near};
   cv::Point3d sum;
+  ProtoObject object;
   for (int i : cells) {
-    const float z0 = grid_->depth_mm()[at(i)];
-    const int top = i / grid_->cols() * kCell, left = i % grid_->cols() * kCell;
-    const int bottom = std::min(top + kCell, depth_mm_->rows),
-              right = std::min(left + kCell, depth_mm_->cols);
-    cv::Point3f cell_sum;  // of few pixels, so that float holds it well
-    int pixels = 0;
-    for (int r = top; r < bottom; ++r) {
-      const float* line = (*depth_mm_)[r];
-      ushort* mask = masks[r];
-      for (int c = left; c < right; ++c) {
-        const float z = line[c];
-        if (!on_surface(z, z0)) continue;
-        mask[c] = static_cast<ushort>(rank);
-        ++pixels;
-        const cv::Point3f p(ray_x_[at(c)] * z, ray_y_[at(r)] * z, z);
-        cell_sum += p;
-        low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-        high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+    const int row = i / grid_->cols(), col = i % grid_->cols();
+    const CellPixels pixels(*depth_mm_, row, col);
+    const Lanes z0 = cv::v_setall_f32(grid_->depth_mm()[at(i)]);
+    const Lanes reach = z0 * cv::v_setall_f32(SurfaceGrid::kSameSurface);
+    const Lanes ray_x = cv::v_load(&ray_x_[at(col * kCell)]);
+    Lanes count = cv::v_setzero_f32();
+    std::array<Lanes, 3> cell_sum = {count, count, count};  // of few pixels, so that float holds it well
+    for (int v = 0; v < pixels.rows(); ++v) {
+      const int r = row * kCell + v;
+      const Lanes z = cv::v_load(pixels.row(v));
+      const Lanes on_it = (cv::v_abs(z - z0) <= reach) & (z > cv::v_setzero_f32());
+      const std::array<Lanes, 3> point = {ray_x * z, cv::v_setall_f32(ray_y_[at(r)]) * z, z};
+      count += one & on_it;
+      for (std::size_t k = 0; k < 3; ++k) {
+        cell_sum[k] += point[k] & on_it;
+        low[k] = cv::v_min(low[k], cv::v_select(on_it, point[k], far));
+        high[k] = cv::v_max(high[k], cv::v_select(on_it, point[k], near));
       }
+      const int bits = cv::v_signmask(on_it);
+      ushort* const mask = masks[r] + col * kCell;
+      for (int u = 0; u < pixels.cols(); ++u)
+        mask[u] = static_cast<ushort>((bits >> u & 1) != 0 ? rank : mask[u]);
     }
-    sum += cv::Point3d(cell_sum);
-    object.pixels += pixels;
+    sum += cv::Point3d(cv::v_reduce_sum(cell_sum[0]), cv::v_reduce_sum(cell_sum[1]),
+                       cv::v_reduce_sum(cell_sum[2]));
+    object.pixels += cvRound(cv::v_reduce_sum(count));
   }
   if (object.pixels == 0) return object;
   object.centroid_mm = sum / object.pixels;
-  object.extent_mm = high - low;
+  object.extent_mm = {cv::v_reduce_max(high[0]) - cv::v_reduce_min(low[0]),
+                      cv::v_reduce_max(high[1]) - cv::v_reduce_min(low[1]),
+                      cv::v_reduce_max(high[2]) - cv::v_reduce_min(low[2])};
   return object;
 }
 

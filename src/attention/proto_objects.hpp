@@ -39,7 +39,7 @@ class ProtoObjects {
   const SurfaceGrid* grid_ = nullptr;
   const SurfaceSegments* segments_ = nullptr;
   const cv::Mat1f* depth_mm_ = nullptr;
-  std::vector<float> ray_x_, ray_y_;  // x/z of each column, y/z of each row
+  std::vector<float> ray_x_, ray_y_;  // x/z of each column (0 beyond the image), y/z of each row
   std::vector<int> first_of_segment_, cells_of_segment_;
   std::vector<int> cells_;
 };

@@ -6,6 +6,8 @@
 
 #include <opencv2/core/hal/intrin.hpp>
 
+#include "attention/cell_pixels.hpp"
+
 namespace saccade {
 namespace {
 
@@ -40,24 +42,23 @@ void SurfaceGrid::build(const cv::Mat1f& depth_mm, const Intrinsics& camera) {
 
 // Of a cell that a jump crosses, or that has gaps or is cut by the border.
 float SurfaceGrid::cell_depth(const cv::Mat1f& depth, int row, int col) const {
-  constexpr std::array<int, kCell> kFromMiddle = {1, 2, 0, 3};
-  const int top = row * kCell, left = col * kCell;
-  const auto at = [&](int v, int u) {
-    return top + v < depth.rows && left + u < depth.cols ? depth(top + v, left + u) : 0.0F;
-  };
+  using Lanes = cv::v_float32x4;
+  static_assert(kCell == Lanes::nlanes);
+  const CellPixels pixels(depth, row, col);
   float z0 = 0;
-  for (int v : kFromMiddle)
-    for (int u : kFromMiddle)
-      if (z0 == 0) z0 = at(v, u);
-  float sum = 0, count = 0;
-  for (int v = 0; v < kCell; ++v)
-    for (int u = 0; u < kCell; ++u) {
-      const float z = at(v, u);
-      if (z == 0 || std::abs(z - z0) > kSameSurface * z0) continue;
-      sum += z;
-      count += 1;
-    }
-  return count > 0 ? sum / count : 0;
+  for (const int v : {1, 2, 0, 3})  // from the middle
+    for (const int u : {1, 2, 0, 3})
+      if (z0 == 0) z0 = pixels.row(v)[u];
+  if (!(z0 > 0)) return 0;
+  const Lanes first = cv::v_setall_f32(z0), reach = cv::v_setall_f32(kSameSurface * z0),
+              one = cv::v_setall_f32(1);
+  Lanes sum = cv::v_setzero_f32(), count = sum;
+  for (int v = 0; v < kCell; ++v) {
+    const Lanes z = cv::v_load(pixels.row(v)), same = cv::v_abs(z - first) <= reach;  // 0 is out of reach
+    sum += z & same;
+    count += one & same;
+  }
+  return cv::v_reduce_sum(sum) / cv::v_reduce_sum(count);
 }
 
 void SurfaceGrid::make_cells(const cv::Mat1f& depth) {
@@ -216,7 +217,7 @@ void SurfaceGrid::make_normals() {
 // around it. Both ends are kReach cells off, where the normals do not mix the two sides; that makes the edge
 // some cells wide, so that no gap of the noise lets a segment leak through.
 void SurfaceGrid::find_concave_edges() {
-  concave_.assign(size(), 0);
+  marked_.assign(size(), 0);
   const int directions[4][2] = {{0, 1}, {1, 0}, {1, 1}, {1, -1}};
   for (const auto& [down, right] : directions) {
     const int first_col = right == 0 ? 0 : kReach, last_col = right == 0 ? cols_ : cols_ - kReach;
@@ -225,7 +226,7 @@ void SurfaceGrid::find_concave_edges() {
   }
   convex_.resize(size());
   for (std::size_t i = 0; i < size(); ++i)
-    convex_[i] = static_cast<std::uint8_t>((nz_[i] != 0) & (concave_[i] == 0));
+    convex_[i] = static_cast<std::uint8_t>((nz_[i] != 0) & (marked_[i] == 0));
 }
 
 // Cells [begin, end) with the ends of the baseline `step` before and behind. Selections instead of branches,
@@ -233,7 +234,7 @@ void SurfaceGrid::find_concave_edges() {
 void SurfaceGrid::mark_concave(int begin, int end, int step) {
   const float *x = x_.data(), *y = y_.data(), *z = z_.data();
   const float *nx = nx_.data(), *ny = ny_.data(), *nz = nz_.data();
-  std::int32_t* const concave = concave_.data();
+  std::int32_t* const concave = marked_.data();
   for (int i = begin; i < end; ++i) {
     const int a = i - step, b = i + step;
     const float px = x[b] - x[a], py = y[b] - y[a], pz = z[b] - z[a];
@@ -249,24 +250,42 @@ void SurfaceGrid::mark_concave(int begin, int end, int step) {
   }
 }
 
-// Linked: the step in depth, or the distance from the tangent plane of one of the two (which a slanted
-// surface keeps small), is below the jump.
 void SurfaceGrid::find_links() {
   links_.assign(size(), 0);
-  const auto linked = [this](std::size_t a, std::size_t b) {
-    const float dx = x_[b] - x_[a], dy = y_[b] - y_[a], dz = z_[b] - z_[a];
-    const float jump = jump_mm(z_[a]);
-    const float from_a = std::abs(nx_[a] * dx + ny_[a] * dy + nz_[a] * dz);
-    const float from_b = std::abs(nx_[b] * dx + ny_[b] * dy + nz_[b] * dz);
-    return (z_[a] > 0) & (z_[b] > 0) &
-           ((std::abs(dz) < jump) | ((nz_[a] != 0) & (from_a < jump)) | ((nz_[b] != 0) & (from_b < jump)));
-  };
-  const auto width = static_cast<std::size_t>(cols_);
-  for (std::size_t r = 0, i = 0; r < static_cast<std::size_t>(rows_); ++r)
-    for (std::size_t c = 0; c < width; ++c, ++i) {
-      if (c + 1 < width && linked(i, i + 1)) links_[i] |= kRight, links_[i + 1] |= kLeft;
-      if (i + width < size() && linked(i, i + width)) links_[i] |= kDown, links_[i + width] |= kUp;
-    }
+  mark_linked(1);
+  for (int r = 1; r <= rows_; ++r) marked_[static_cast<std::size_t>(r * cols_ - 1)] = 0;  // ends of rows
+  add_links(1, kRight, kLeft);
+  mark_linked(cols_);
+  add_links(cols_, kDown, kUp);
+}
+
+// Marks the cells that are linked with the one `step` behind, also across the ends of rows. Linked: the step
+// in depth, or the distance from the tangent plane of one of the two (which a slanted surface keeps small),
+// is below the jump. Without branches, so that compilers make vectors of it.
+void SurfaceGrid::mark_linked(int step) {
+  const float *x = x_.data(), *y = y_.data(), *z = z_.data();
+  const float *nx = nx_.data(), *ny = ny_.data(), *nz = nz_.data();
+  std::int32_t* const marked = marked_.data();
+  const int last = static_cast<int>(size()) - step;
+  for (int a = 0; a < last; ++a) {
+    const int b = a + step;
+    const float dx = x[b] - x[a], dy = y[b] - y[a], dz = z[b] - z[a];
+    const float jump = jump_mm(z[a]);
+    const float from_a = std::abs(nx[a] * dx + ny[a] * dy + nz[a] * dz);
+    const float from_b = std::abs(nx[b] * dx + ny[b] * dy + nz[b] * dz);
+    const float none = 2 * jump;
+    const float nearest = lower(lower(std::abs(dz), nz[a] != 0 ? from_a : none), nz[b] != 0 ? from_b : none);
+    const float valid = lower(z[a], z[b]);
+    marked[a] = (valid > 0 ? nearest : none) < jump ? 1 : 0;
+  }
+}
+
+void SurfaceGrid::add_links(int step, Link ahead, Link behind) {
+  const std::int32_t* const marked = marked_.data();
+  std::uint8_t* const links = links_.data();
+  const int last = static_cast<int>(size()) - step;
+  for (int i = 0; i < last; ++i) links[i] |= static_cast<std::uint8_t>(marked[i] * ahead);
+  for (int i = 0; i < last; ++i) links[i + step] |= static_cast<std::uint8_t>(marked[i] * behind);
 }
 
 }  // namespace saccade

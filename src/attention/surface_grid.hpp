@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -28,7 +27,9 @@ class SurfaceGrid {
 
   /// A step in depth that is larger than this ends a surface; mm. Grows with z, and beyond 1 m with z^2, as
   /// the noise of sensors does.
-  static float jump_mm(float depth_mm) { return kJump * depth_mm * std::max(1.0F, kPerMetre * depth_mm); }
+  static float jump_mm(float depth_mm) {
+    return kJump * depth_mm * (kPerMetre * depth_mm > 1 ? kPerMetre * depth_mm : 1);
+  }
 
   int rows() const { return rows_; }
   int cols() const { return cols_; }
@@ -70,6 +71,8 @@ class SurfaceGrid {
   void find_concave_edges();
   void mark_concave(int begin, int end, int step);
   void find_links();
+  void mark_linked(int step);
+  void add_links(int step, Link ahead, Link behind);
 
   static constexpr int kLanes = 4;  // cells that normals_with_gaps() takes at once
   std::size_t padded_stride() const { return static_cast<std::size_t>(cols_) + 4 + kLanes; }
@@ -80,7 +83,7 @@ class SurfaceGrid {
   std::vector<float> lowest_, highest_, sum_, sum_u_;  ///< of five cells in a row
   std::vector<float> padded_z_, padded_w_;             ///< with a frame of cells without depth
   std::vector<float> column_low_, column_high_, column_sum_;
-  std::vector<std::int32_t> concave_;
+  std::vector<std::int32_t> marked_;  ///< cells of a concave edge, or with a link in one direction
   std::vector<std::uint8_t> links_, convex_;
 };
 

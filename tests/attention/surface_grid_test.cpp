@@ -109,6 +109,46 @@ TEST(SurfaceGrid, LinksEndAtADepthJumpAndGoBothWays) {
     }
 }
 
+// The rule of README.md, section 2, for two neighbours, in double.
+bool slow_linked(const SurfaceGrid& grid, std::size_t a, std::size_t b) {
+  const auto point = [&](std::size_t i) {
+    const int row = static_cast<int>(i) / grid.cols(), col = static_cast<int>(i) % grid.cols();
+    return grid.camera().point_mm(row, col, static_cast<double>(grid.depth_mm()[i]));
+  };
+  const cv::Point3d p = point(a), q = point(b);
+  const double jump = 0.012 * p.z * std::max(1.0, p.z / 1000);
+  const auto off_plane = [&](std::size_t i) {
+    const cv::Point3d n(static_cast<double>(grid.normal_x()[i]), static_cast<double>(grid.normal_y()[i]),
+                        static_cast<double>(grid.normal_z()[i]));
+    return n == cv::Point3d() ? 1e9 : std::abs(n.dot(q - p));
+  };
+  return p.z > 0 && q.z > 0 && (std::abs(q.z - p.z) < jump || off_plane(a) < jump || off_plane(b) < jump);
+}
+
+TEST(SurfaceGrid, LinksAreThoseOfTheSlowForm) {
+  TableScene scene = look_at_table({box(0, 100, 150, 120, 130), ball(-250, 0, 70)}, {161, 122});
+  std::mt19937 random(6);
+  for (float& z : scene.depth_mm)
+    z = random() % 4 == 0 ? 0.0F : z * 2 + static_cast<float>(random() % 1000) * 0.06F - 30.0F;
+  SurfaceGrid grid;
+  grid.build(scene.depth_mm, scene.camera);
+  const auto cols = static_cast<std::size_t>(grid.cols());
+  int links = 0, jumps = 0;
+  for (std::size_t i = 0; i < grid.size(); ++i) {
+    const bool has_right = i % cols + 1 < cols, has_down = i + cols < grid.size();
+    const bool right = has_right && slow_linked(grid, i, i + 1),
+               down = has_down && slow_linked(grid, i, i + cols);
+    EXPECT_EQ((grid.links()[i] & SurfaceGrid::kRight) != 0, right) << i;
+    EXPECT_EQ((grid.links()[i] & SurfaceGrid::kDown) != 0, down) << i;
+    EXPECT_EQ(has_right && (grid.links()[i + 1] & SurfaceGrid::kLeft) != 0, right) << i;
+    EXPECT_EQ(has_down && (grid.links()[i + cols] & SurfaceGrid::kUp) != 0, down) << i;
+    links += right + down;
+    jumps += (has_right && !right) + (has_down && !down);
+  }
+  EXPECT_GT(links, 500);
+  EXPECT_GT(jumps, 100);
+}
+
 TEST(SurfaceGrid, ConcaveEdgesAreOnesAndConvexEdgesAreNone) {
   const TableScene scene = look_at_table({box(0, 0, 300, 200, 150)});
   SurfaceGrid grid;

@@ -1,0 +1,133 @@
+// The selector `proto` and its parts on one thread, frame by frame: what counts beside a sensor is the worst
+// frame. Counters: processor time of a frame, milliseconds, the smallest of the repetitions of that frame;
+// the median over the frames of a set, and the largest with the parts of that frame.
+
+#include <time.h>
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <functional>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include <benchmark/benchmark.h>
+#include <opencv2/imgcodecs.hpp>
+
+#include "attention/border_ownership.hpp"
+#include "attention/proto.hpp"
+#include "models/model.hpp"
+#include "settings/settings.hpp"
+#include "sources/synthetic_source.hpp"
+
+namespace saccade {
+namespace {
+
+constexpr int kPoints = 10;
+
+/// Of the calling thread.
+double processor_ms() {
+  timespec time{};
+  ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
+}
+
+double smallest_ms(int repetitions, const std::function<void()>& work) {
+  double smallest = std::numeric_limits<double>::max();
+  for (int i = 0; i < repetitions; ++i) {
+    const double start = processor_ms();
+    work();
+    smallest = std::min(smallest, processor_ms() - start);
+  }
+  return smallest;
+}
+
+std::vector<Frame> synthetic(const std::string& scene) {
+  SyntheticSource source("synthetic:" + scene + "?seed=21&noise=kinect&frames=20");
+  std::vector<Frame> frames;
+  Frame frame;
+  while (source.read(frame, std::chrono::milliseconds(0)).status == ReadStatus::frame)
+    frames.push_back(Frame(frame));
+  for (Frame& each : frames) each.depth_mm = each.depth_mm.clone();
+  return frames;
+}
+
+/// The depth images of a folder, in its order; none if it is not there.
+std::vector<Frame> real(const std::string& folder) {
+  const std::filesystem::path path = std::filesystem::path(SACCADE_SHARED_DIR) / "data" / folder;
+  std::vector<std::string> names;
+  if (std::filesystem::is_directory(path))
+    for (const auto& entry : std::filesystem::directory_iterator(path))
+      if (entry.path().string().ends_with("_depth.png")) names.push_back(entry.path().string());
+  std::sort(names.begin(), names.end());
+  std::vector<Frame> frames;
+  for (const std::string& name : names) {
+    Frame frame;
+    cv::imread(name, cv::IMREAD_UNCHANGED).convertTo(frame.depth_mm, CV_32F);
+    frame.intrinsics = Intrinsics::guess_for(frame.depth_mm.size());
+    frames.push_back(frame);
+  }
+  return frames;
+}
+
+struct Times {
+  double all = 0, grid = 0, segments = 0, borders = 0;
+};
+
+Times measure(const Frame& frame, const cv::Mat1f& map, ProtoSelector& selector) {
+  constexpr int kRepetitions = 15;
+  Attention attention;
+  SurfaceGrid grid;
+  SurfaceSegments segments;
+  BorderOwnership borders;
+  Times times;
+  times.all =
+      smallest_ms(kRepetitions, [&] { selector.select(map, frame.depth_mm, frame.intrinsics, attention); });
+  times.grid = smallest_ms(kRepetitions, [&] { grid.build(frame.depth_mm, frame.intrinsics); });
+  times.segments = smallest_ms(kRepetitions, [&] { segments.grow(grid); });
+  times.borders = smallest_ms(kRepetitions, [&] { borders.measure(grid, segments); });
+  return times;
+}
+
+void run(benchmark::State& state, const std::vector<Frame>& frames) {
+  WorkerPool pool(1);
+  const std::unique_ptr<SaliencyModel> model = make_model(Settings{}, pool);
+  ProtoSelector selector(kPoints);
+  SaliencyMaps maps;
+  StageTimes stages;
+  std::vector<Times> times;
+  for (auto _ : state) {
+    times.clear();
+    for (const Frame& frame : frames) {
+      model->compute(frame, {}, maps, stages);
+      times.push_back(measure(frame, maps.master, selector));
+    }
+  }
+  const auto less = [](const Times& a, const Times& b) { return a.all < b.all; };
+  const auto middle = times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2);
+  std::sort(times.begin(), times.end(), less);
+  const Times& worst = times.back();
+  state.counters["median_ms"] = middle->all;
+  state.counters["worst_ms"] = worst.all;
+  state.counters["worst_grid"] = worst.grid;
+  state.counters["worst_segments"] = worst.segments;
+  state.counters["worst_borders"] = worst.borders;
+}
+
+void register_all() {
+  const auto add = [](const std::string& name, const std::vector<Frame>& frames) {
+    if (!frames.empty())
+      benchmark::RegisterBenchmark(name.c_str(), [=](benchmark::State& state) { run(state, frames); })
+          ->Unit(benchmark::kMillisecond)
+          ->Iterations(1);
+  };
+  for (const std::string scene : {"table", "room"}) add("synthetic_" + scene, synthetic(scene));
+  for (const std::string folder : {"osd_learn", "rooms_avd", "rooms_2d3ds_mod", "kitchen_sequence"})
+    add(folder, real(folder));
+}
+
+[[maybe_unused]] const bool registered = (register_all(), true);
+
+}  // namespace
+}  // namespace saccade
