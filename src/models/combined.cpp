@@ -3,7 +3,6 @@
 #include <opencv2/imgproc.hpp>
 
 #include "models/image.hpp"
-#include "models/itti.hpp"
 #include "models/symmetry2d.hpp"
 
 namespace saccade {
@@ -23,7 +22,7 @@ CombinedModel::CombinedModel(const ModelSettings& settings, WorkerPool& pool)
     : pool_(pool),
       first_level_(settings.first_level),
       symmetry3d_(settings, pool, settings.simd),
-      itti_(std::make_unique<IttiModel>("combined", false, pool)),
+      itti_("combined", false, pool),
       symmetry2d_(make_symmetry2d(pool)) {}
 
 // From the coarsest level down: sums_[l] holds the sum of the weighted levels from l on.
@@ -42,13 +41,11 @@ void CombinedModel::weigh_levels(const cv::Mat1f& depth_mm) {
         upsample_rows(sums_[static_cast<std::size_t>(l) + 1], 1, sum, false, begin, end);
       if (l < first_level_) return;
       const cv::Mat1f& score = maps3d_.levels[static_cast<std::size_t>(l - first_level_)];
+      const float scale = 1 / limit_mm;
       for (int r = begin; r < end; ++r) {
         const float *depth = depth_mm[r << l], *of_level = score[r];
         float* out = sum[r];
-        const auto add = [&](int c, float z) {
-          const float x = z / limit_mm;
-          out[c] += of_level[c] / (1 + x * x);
-        };
+        const auto add = [&](int c, float z) { out[c] += of_level[c] / (1 + (z * scale) * (z * scale)); };
         if (l == 0)  // apart, since the compiler vectorises it
           for (int c = 0; c < sum.cols; ++c) add(c, depth[c]);
         else
@@ -58,12 +55,26 @@ void CombinedModel::weigh_levels(const cv::Mat1f& depth_mm) {
   }
 }
 
-void CombinedModel::reduce(const cv::Mat1f& map, cv::Mat1f& reduced) {
+// The maps at 1/4 of the image; those of the image have never been larger than half of it. `itti` is of
+// itti_.map_level().
+void CombinedModel::reduce(const cv::Mat1f& itti, const cv::Mat1f& symmetry2d) {
   constexpr double kSigmaPx = 6.0 / (1 << kReducedLevel);
-  cv::pyrDown(map, half_);
-  cv::pyrDown(half_, reduced);
-  cv::GaussianBlur(reduced, reduced, {}, kSigmaPx);
-  divide_by_maximum(reduced);
+  static_assert(MirrorPairModel::kFirstLevel + 1 == kReducedLevel);
+  const auto reduce_one = [&](int i, int) {
+    cv::Mat1f& reduced = i == 0 ? reduced3d_ : i == 1 ? reduced2d_ : reduced_itti_;
+    if (i == 0) {
+      cv::pyrDown(sums_[0], half_);
+      cv::pyrDown(half_, reduced);
+    } else if (i == 1) {
+      cv::pyrDown(symmetry2d, reduced);
+    } else {
+      reduced.create(level_size(sums_[0].size(), kReducedLevel));
+      upsample_rows(itti, itti_.map_level() - kReducedLevel, reduced, false, 0, reduced.rows);
+    }
+    cv::GaussianBlur(reduced, reduced, {}, kSigmaPx);
+    divide_by_maximum(reduced);
+  };
+  pool_.for_each(3, std::ref(reduce_one));
 }
 
 // reduced3d_ becomes the combined map at 1/4 of the image.
@@ -83,15 +94,17 @@ void CombinedModel::combine() {
 
 void CombinedModel::compute(const Frame& frame, RequestedOutputs outputs, SaliencyMaps& maps,
                             StageTimes& times) {
-  itti_->compute(frame, {}, maps_itti_, times);
-  symmetry2d_->compute(frame, {}, maps2d_, times);
+  cv::Mat1f itti, symmetry2d;  // headers of the models' own maps
+  {
+    const StageTimer timer(times, Stage::symmetry);
+    itti = itti_.find_conspicuity(frame);
+    symmetry2d = symmetry2d_->find_symmetry(frame);
+  }
   symmetry3d_.compute(frame.depth_mm, frame.intrinsics, {.levels = true, .normals = outputs.normals}, maps3d_,
                       times);
   const StageTimer timer(times, Stage::master_map);
   weigh_levels(frame.depth_mm);
-  reduce(sums_[0], reduced3d_);
-  reduce(maps_itti_.master, reduced_itti_);
-  reduce(maps2d_.master, reduced2d_);
+  reduce(itti, symmetry2d);
   combine();
   maps.master.create(frame.size());
   for_row_bands(pool_, frame.size().height, [&](int begin, int end) {

@@ -3,6 +3,8 @@
 #include <memory>
 #include <vector>
 
+#include "models/itti.hpp"
+#include "models/mirror_pairs.hpp"
 #include "models/model.hpp"
 
 namespace saccade {
@@ -14,7 +16,7 @@ namespace saccade {
 ///       w_l(z) = 1/(1 + (z/(z_0 2^l))^2),   z_0 = 500 mm:
 ///     the noise of a sensor grows with z^2 and each level smooths it; where it is large, fine levels find
 ///     symmetry in noise. The weighted levels are added as in Eq. (15).
-///  2. This map x, that of itti and that of symmetry2d are reduced to 1/4 of the image, smoothed by a
+///  2. This map x, that of itti and that of symmetry2d are brought to 1/4 of the image, smoothed by a
 ///  Gaussian
 ///     of 6 px and divided by their maximum; so is the image's saliency I = itti + 1/4 symmetry2d.
 ///  3. A place is salient if it stands out in either, and more so if there is any 3D evidence at it:
@@ -28,14 +30,15 @@ class CombinedModel : public SaliencyModel {
 
  private:
   void weigh_levels(const cv::Mat1f& depth_mm);
-  void reduce(const cv::Mat1f& map, cv::Mat1f& reduced);
+  void reduce(const cv::Mat1f& itti, const cv::Mat1f& symmetry2d);
   void combine();
 
   WorkerPool& pool_;
   int first_level_;
   Symmetry3d symmetry3d_;
-  std::unique_ptr<SaliencyModel> itti_, symmetry2d_;
-  SaliencyMaps maps3d_, maps_itti_, maps2d_;
+  IttiModel itti_;
+  std::unique_ptr<MirrorPairModel> symmetry2d_;
+  SaliencyMaps maps3d_;
   std::vector<cv::Mat1f> sums_;  ///< of the weighted levels, by level
   cv::Mat1f half_, reduced3d_, reduced_itti_, reduced2d_;
 };

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <vector>
 
 #include "models/gabor.hpp"
 #include "models/model.hpp"
@@ -17,6 +18,11 @@ class IttiModel : public SaliencyModel {
  public:
   IttiModel(const char* name, bool orientation_only, WorkerPool& pool);
   void compute(const Frame& frame, RequestedOutputs outputs, SaliencyMaps& maps, StageTimes& times) override;
+
+  /// The map before it is brought to the frame's size: of level map_level(), until the next call. Throws as
+  /// compute().
+  const cv::Mat1f& find_conspicuity(const Frame& frame);
+  int map_level() const { return kMapLevel - finer_; }  ///< 2..4
 
  private:
   static constexpr int kOrientations = GaborFilters::kOrientations, kCentres = 3, kSurrounds = 2, kLevels = 9;
@@ -44,6 +50,8 @@ class IttiModel : public SaliencyModel {
   WorkerPool& pool_;
   cv::Size size_;
   int finer_ = 0;  ///< subtracted from all level numbers, for small images
+  std::array<cv::Mat1b, 3> bgr_;
+  std::vector<float> row_maximum_;  ///< of the intensity
   std::array<ChannelState, kChannels> channels_;
   GaborFilters gabor_;
   std::array<GaborFilters::Parts, kLevels> gabor_parts_;

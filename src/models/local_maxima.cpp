@@ -25,6 +25,42 @@ bool is_peak(const cv::Mat1f& map, int row, int col) {
   return true;
 }
 
+// By value: compilers make no vectors of std::max, which gives references.
+constexpr float higher(float a, float b) { return a > b ? a : b; }
+
+/// Number and sum of the peaks from kCounts on of a map with values in 0..1.
+struct Peaks {
+  constexpr static float kCounts = 0.1F;
+  int count = 0;
+  double sum = 0;
+
+  void add(float peak) { count += 1, sum += static_cast<double>(peak); }
+};
+
+// The columns with two neighbours are decided without branches, so that compilers make vectors of it.
+Peaks find_peaks(const cv::Mat1f& map) {
+  Peaks peaks;
+  const int last = map.cols - 1;
+  const std::vector<float> outside(static_cast<std::size_t>(map.cols), -1.0F);
+  std::vector<float> peak_values(static_cast<std::size_t>(map.cols));
+  float* const found = peak_values.data();
+  for (int r = 0; r < map.rows; ++r) {
+    const float* here = map[r];
+    const float* up = r > 0 ? map[r - 1] : outside.data();
+    const float* down = r + 1 < map.rows ? map[r + 1] : outside.data();
+    for (int c = 1; c < last; ++c) {
+      const float before = higher(higher(higher(up[c - 1], up[c]), up[c + 1]), here[c - 1]);
+      const float after = higher(higher(higher(down[c - 1], down[c]), down[c + 1]), here[c + 1]);
+      const float peak = before < here[c] ? here[c] : 0;
+      found[c] = after <= here[c] ? peak : 0;
+    }
+    for (const int c : {0, last}) found[c] = is_peak(map, r, c) ? here[c] : 0;
+    for (int c = 0; c <= last; ++c)
+      if (found[c] >= Peaks::kCounts) peaks.add(found[c]);
+  }
+  return peaks;
+}
+
 }  // namespace
 
 void attenuate_border(cv::Mat1f& map) {
@@ -42,7 +78,6 @@ void attenuate_border(cv::Mat1f& map) {
 }
 
 void promote_few_peaks(cv::Mat1f& map) {
-  constexpr float kCounts = 0.1F;
   double low = 0, high = 0;
   cv::minMaxLoc(map, &low, &high);
   const float bottom = static_cast<float>(low), range = static_cast<float>(high) - bottom;
@@ -52,15 +87,9 @@ void promote_few_peaks(cv::Mat1f& map) {
   }
   for (int r = 0; r < map.rows; ++r)
     for (float& value : row_of(map, r)) value = (value - bottom) / range;
-  double sum = 0;
-  int peaks = 0;
-  for (int r = 0; r < map.rows; ++r)
-    for (int c = 0; c < map.cols; ++c)
-      if (map(r, c) >= kCounts && is_peak(map, r, c)) {
-        sum += static_cast<double>(map(r, c));
-        ++peaks;
-      }
-  const double mean_of_others = peaks > 1 ? (sum - 1) / (peaks - 1) : 0;  // the highest is 1
+  const Peaks peaks = find_peaks(map);
+  const double mean_of_others =
+      peaks.count > 1 ? (peaks.sum - 1) / (peaks.count - 1) : 0;  // the highest is 1
   const float weight = static_cast<float>((1 - mean_of_others) * (1 - mean_of_others));
   for (int r = 0; r < map.rows; ++r)
     for (float& value : row_of(map, r)) value *= weight;

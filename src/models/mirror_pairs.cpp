@@ -13,7 +13,7 @@ namespace saccade {
 namespace {
 
 constexpr int kOuter = 5, kInner = 2;  // half-widths
-constexpr int kFirstLevel = 1, kLastLevel = 5;
+constexpr int kLastLevel = 5;
 constexpr int kUnitsPerGrey = 256;  // of the 16-bit levels
 constexpr int kRowsOfBand = 8;
 
@@ -81,8 +81,7 @@ void MirrorPairModel::for_bands(Job job) {
   pool_.for_each(bands, std::ref(band));
 }
 
-void MirrorPairModel::compute(const Frame& frame, RequestedOutputs, SaliencyMaps& maps, StageTimes& times) {
-  const StageTimer timer(times, Stage::symmetry);
+const cv::Mat1f& MirrorPairModel::find_symmetry(const Frame& frame) {
   const cv::Mat3b& colour = colour_of(frame, name_);
   resize(colour.size());
   load(colour);
@@ -106,11 +105,17 @@ void MirrorPairModel::compute(const Frame& frame, RequestedOutputs, SaliencyMaps
   });
   for (std::size_t i = levels_.size() - 1; i > 0; --i)
     upsample_rows(levels_[i].score, 1, levels_[i - 1].score, true, 0, levels_[i - 1].score.rows);
+  return levels_[0].score;
+}
+
+void MirrorPairModel::compute(const Frame& frame, RequestedOutputs, SaliencyMaps& maps, StageTimes& times) {
+  const StageTimer timer(times, Stage::symmetry);
+  const cv::Mat1f& score = find_symmetry(frame);
   maps.levels.clear();
   maps.normals.release();
-  maps.master.create(colour.size());
-  for_row_bands(pool_, colour.rows, [&](int begin, int end) {
-    upsample_rows(levels_[0].score, kFirstLevel, maps.master, false, begin, end);
+  maps.master.create(size_);
+  for_row_bands(pool_, size_.height, [&](int begin, int end) {
+    upsample_rows(score, kFirstLevel, maps.master, false, begin, end);
   });
 }
 

@@ -59,6 +59,11 @@ class MirrorPairModel : public SaliencyModel {
   MirrorPairModel(const char* name, std::unique_ptr<PairMeasure> measure, WorkerPool& pool);
   void compute(const Frame& frame, RequestedOutputs outputs, SaliencyMaps& maps, StageTimes& times) override;
 
+  /// The sum of the levels at level kFirstLevel, before it is brought to the frame's size; until the next
+  /// call. Throws as compute().
+  const cv::Mat1f& find_symmetry(const Frame& frame);
+  static constexpr int kFirstLevel = 1;
+
  private:
   struct Level {
     Level(cv::Size size, const PairMeasure& measure);

@@ -41,9 +41,13 @@ constexpr std::array<ModelInfo, 9> kModels = {{
     {"symmetry3d", "3D symmetry of the depth image, the paper's model", true, make<Symmetry3dModel>},
     {"combined", "3D symmetry together with itti and symmetry2d", true, make<CombinedModel>},
     {"symmetry2d", "symmetry of the grey image (Reisfeld, Kootstra)", false,
-     [](const ModelSettings&, WorkerPool& pool) { return make_symmetry2d(pool); }},
+     [](const ModelSettings&, WorkerPool& pool) -> std::unique_ptr<SaliencyModel> {
+       return make_symmetry2d(pool);
+     }},
     {"colour_symmetry2d", "symmetry of the colour image (Heidemann)", false,
-     [](const ModelSettings&, WorkerPool& pool) { return make_colour_symmetry2d(pool); }},
+     [](const ModelSettings&, WorkerPool& pool) -> std::unique_ptr<SaliencyModel> {
+       return make_colour_symmetry2d(pool);
+     }},
     {"radial2d", "fast radial symmetry of the grey image (Loy and Zelinsky)", false,
      make_plain<Radial2dModel>},
     {"itti", "intensity, colour and orientation contrast (Itti, Koch and Niebur)", false,

@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "models/grey_pairs.hpp"
-#include "models/mirror_pairs.hpp"
 
 namespace saccade {
 namespace {
@@ -108,11 +107,11 @@ class ColourMeasure : public PairMeasure {
 
 }  // namespace
 
-std::unique_ptr<SaliencyModel> make_symmetry2d(WorkerPool& pool) {
+std::unique_ptr<MirrorPairModel> make_symmetry2d(WorkerPool& pool) {
   return std::make_unique<MirrorPairModel>("symmetry2d", std::make_unique<GreyMeasure>(), pool);
 }
 
-std::unique_ptr<SaliencyModel> make_colour_symmetry2d(WorkerPool& pool) {
+std::unique_ptr<MirrorPairModel> make_colour_symmetry2d(WorkerPool& pool) {
   return std::make_unique<MirrorPairModel>("colour_symmetry2d", std::make_unique<ColourMeasure>(), pool);
 }
 

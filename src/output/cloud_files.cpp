@@ -21,6 +21,10 @@ class Record {
     std::memcpy(at_, &value, sizeof value);
     at_ += sizeof value;
   }
+  template <typename Value, int count>
+  void put(const cv::Vec<Value, count>& values) {  // not trivially copyable, its elements are
+    put(values.val);
+  }
 
  private:
   std::uint8_t* at_;

@@ -2,13 +2,9 @@
 // frame. Counters: processor time of a frame, milliseconds, the smallest of the repetitions of that frame;
 // the median over the frames of a set, and the largest with the parts of that frame.
 
-#include <time.h>
-
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
-#include <functional>
-#include <limits>
 #include <string>
 #include <vector>
 
@@ -18,6 +14,7 @@
 #include "attention/border_ownership.hpp"
 #include "attention/proto.hpp"
 #include "models/model.hpp"
+#include "processor_time.hpp"
 #include "settings/settings.hpp"
 #include "sources/synthetic_source.hpp"
 
@@ -25,23 +22,6 @@ namespace saccade {
 namespace {
 
 constexpr int kPoints = 10;
-
-/// Of the calling thread.
-double processor_ms() {
-  timespec time{};
-  ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-  return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
-}
-
-double smallest_ms(int repetitions, const std::function<void()>& work) {
-  double smallest = std::numeric_limits<double>::max();
-  for (int i = 0; i < repetitions; ++i) {
-    const double start = processor_ms();
-    work();
-    smallest = std::min(smallest, processor_ms() - start);
-  }
-  return smallest;
-}
 
 std::vector<Frame> synthetic(const std::string& scene) {
   SyntheticSource source("synthetic:" + scene + "?seed=21&noise=kinect&frames=20");
@@ -82,11 +62,11 @@ Times measure(const Frame& frame, const cv::Mat1f& map, ProtoSelector& selector)
   SurfaceSegments segments;
   BorderOwnership borders;
   Times times;
-  times.all =
-      smallest_ms(kRepetitions, [&] { selector.select(map, frame.depth_mm, frame.intrinsics, attention); });
-  times.grid = smallest_ms(kRepetitions, [&] { grid.build(frame.depth_mm, frame.intrinsics); });
-  times.segments = smallest_ms(kRepetitions, [&] { segments.grow(grid); });
-  times.borders = smallest_ms(kRepetitions, [&] { borders.measure(grid, segments); });
+  times.all = smallest_processor_ms(
+      kRepetitions, [&] { selector.select(map, frame.depth_mm, frame.intrinsics, attention); });
+  times.grid = smallest_processor_ms(kRepetitions, [&] { grid.build(frame.depth_mm, frame.intrinsics); });
+  times.segments = smallest_processor_ms(kRepetitions, [&] { segments.grow(grid); });
+  times.borders = smallest_processor_ms(kRepetitions, [&] { borders.measure(grid, segments); });
   return times;
 }
 

@@ -82,18 +82,27 @@ TEST(Combined, IsTheEquationOfItsMaps) {
       }
     noise_aware += full;
   }
-  const auto reduce = [](const cv::Mat& full) {
-    cv::Mat1d map = as_double(full);
-    cv::pyrDown(map, map);
-    cv::pyrDown(map, map);
+  const auto every = [](int step, const cv::Mat& full) {  // pixel of a row and column
+    cv::Mat1d map = as_double(full), few(full.rows / step, full.cols / step);
+    for (int r = 0; r < few.rows; ++r)
+      for (int c = 0; c < few.cols; ++c) few(r, c) = map(r * step, c * step);
+    return few;
+  };
+  const auto halve = [](const cv::Mat1d& map) {
+    cv::Mat1d half;
+    cv::pyrDown(map, half);
+    return half;
+  };
+  const auto smooth = [](cv::Mat1d map) {
     cv::GaussianBlur(map, map, {}, 1.5);
     double highest = 0;
     cv::minMaxLoc(map, nullptr, &highest);
     return as_double(map, 1 / highest);
   };
-  const cv::Mat1d depth_part = reduce(noise_aware);
+  const cv::Mat1d depth_part = smooth(halve(halve(noise_aware)));
   cv::Mat1d image;
-  cv::scaleAdd(reduce(map_of("symmetry2d", frame)), 0.25, reduce(map_of("itti", frame)), image);
+  cv::scaleAdd(smooth(halve(every(2, map_of("symmetry2d", frame)))), 0.25,
+               smooth(every(4, map_of("itti", frame))), image);
   double highest = 0;
   cv::minMaxLoc(image, nullptr, &highest);
   image /= highest;
