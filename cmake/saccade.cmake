@@ -20,7 +20,7 @@ target_include_directories(saccade_flags INTERFACE ${PROJECT_SOURCE_DIR}/src ${P
 if(SACCADE_SANITIZE)
   add_compile_options(
     -fsanitize=${SACCADE_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer
-    -Wno-maybe-uninitialized)  # GCC warns falsely in instrumented code
+    $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)  # GCC warns falsely in instrumented code
   add_link_options(-fsanitize=${SACCADE_SANITIZE})
 endif()
 

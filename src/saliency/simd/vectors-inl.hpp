@@ -111,16 +111,16 @@ HWY_INLINE VF reciprocal_sqrt(VF x) {
   return y;
 }
 
-/// v, kept in a register. Compilers would otherwise reload a value for each use, and the inner loop is
-/// limited by loads that cross cache lines.
+/// v, kept in a register. GCC would otherwise reload a value for each use, and the inner loop is limited by
+/// loads that cross cache lines.
 HWY_INLINE VF in_register(VF v) {
-#if HWY_ARCH_X86 && HWY_TARGET != HWY_SCALAR
+#if HWY_COMPILER_GCC_ACTUAL && HWY_ARCH_X86 && HWY_TARGET != HWY_SCALAR
   asm("" : "+v"(v.raw));
 #endif
   return v;
 }
 HWY_INLINE VI in_register(VI v) {
-#if HWY_ARCH_X86 && HWY_TARGET != HWY_SCALAR
+#if HWY_COMPILER_GCC_ACTUAL && HWY_ARCH_X86 && HWY_TARGET != HWY_SCALAR
   asm("" : "+v"(v.raw));
 #endif
   return v;
