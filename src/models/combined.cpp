@@ -100,8 +100,8 @@ void CombinedModel::compute(const Frame& frame, RequestedOutputs outputs, Salien
     itti = itti_.find_conspicuity(frame);
     symmetry2d = symmetry2d_->find_symmetry(frame);
   }
-  symmetry3d_.compute(frame.depth_mm, frame.intrinsics, {.levels = true, .normals = outputs.normals}, maps3d_,
-                      times);
+  symmetry3d_.compute_levels(frame.depth_mm, frame.intrinsics, {.levels = true, .normals = outputs.normals},
+                             maps3d_, times);
   const StageTimer timer(times, Stage::master_map);
   weigh_levels(frame.depth_mm);
   reduce(itti, symmetry2d);

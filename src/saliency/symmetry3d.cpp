@@ -34,6 +34,13 @@ Symmetry3d::~Symmetry3d() = default;
 // Sections: those of README.md in this folder.
 void Symmetry3d::compute(const cv::Mat1f& depth_mm, const Intrinsics& camera, RequestedOutputs outputs,
                          SaliencyMaps& maps, StageTimes& times) {
+  compute_levels(depth_mm, camera, outputs, maps, times);
+  const StageTimer timer(times, Stage::master_map);
+  state_->add_levels(maps.master);  // Section 3, Eq. (15)
+}
+
+void Symmetry3d::compute_levels(const cv::Mat1f& depth_mm, const Intrinsics& camera, RequestedOutputs outputs,
+                                SaliencyMaps& maps, StageTimes& times) {
   if (!camera.valid())
     throw std::invalid_argument("Symmetry3d: intrinsics must be finite, focal lengths above 0");
   State& state = *state_;
@@ -50,7 +57,6 @@ void Symmetry3d::compute(const cv::Mat1f& depth_mm, const Intrinsics& camera, Re
   }
   const StageTimer timer(times, Stage::master_map);
   state.copy_outputs(outputs, maps);
-  state.add_levels(maps.master);  // Section 3, Eq. (15)
 }
 
 // Section 1.1: the depth of level 0.

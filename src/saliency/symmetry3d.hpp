@@ -47,6 +47,10 @@ class Symmetry3d {
   void compute(const cv::Mat1f& depth_mm, const Intrinsics& camera, RequestedOutputs outputs,
                SaliencyMaps& maps, StageTimes& times);
 
+  /// The same without the master map, which stays as it is: for those who add the levels in their own way.
+  void compute_levels(const cv::Mat1f& depth_mm, const Intrinsics& camera, RequestedOutputs outputs,
+                      SaliencyMaps& maps, StageTimes& times);
+
  private:
   struct State;
   std::unique_ptr<State> state_;

@@ -47,6 +47,46 @@ TEST(PromoteFewPeaks, CountsAPlateauOnceAndNoNoise) {
   EXPECT_EQ(cv::norm(nearly_flat, cv::NORM_INF), 0);
 }
 
+// N(.) as README.md has it, pixel by pixel in double: a peak is no lower than its neighbours, and higher than
+// those before it.
+cv::Mat1d slow_promote(const cv::Mat1d& map) {
+  double low = 0, high = 0;
+  cv::minMaxLoc(map, &low, &high);
+  cv::Mat1d scaled, promoted;
+  map.convertTo(scaled, CV_64F, 1 / (high - low), -low / (high - low));
+  double sum = 0;
+  int peaks = 0;
+  for (int r = 0; r < map.rows; ++r)
+    for (int c = 0; c < map.cols; ++c) {
+      bool peak = scaled(r, c) >= 0.1;
+      for (int down = -1; down <= 1; ++down)
+        for (int right = -1; right <= 1; ++right) {
+          const int i = r + down, j = c + right;
+          if (i < 0 || j < 0 || i >= map.rows || j >= map.cols || (down == 0 && right == 0)) continue;
+          const bool before = down < 0 || (down == 0 && right < 0);
+          peak = peak && (before ? scaled(i, j) < scaled(r, c) : scaled(i, j) <= scaled(r, c));
+        }
+      if (peak) sum += scaled(r, c), ++peaks;
+    }
+  const double others = peaks > 1 ? (sum - 1) / (peaks - 1) : 0;
+  scaled.convertTo(promoted, CV_64F, (1 - others) * (1 - others));
+  return promoted;
+}
+
+// Few different values, so that there are plateaus; maps of one row or column, and with a rest in any vector.
+TEST(PromoteFewPeaks, IsTheSlowForm) {
+  cv::RNG random(8);
+  for (const cv::Size size : {cv::Size(1, 9), {9, 1}, {2, 2}, {3, 5}, {33, 20}, {80, 60}})
+    for (const int values : {3, 20, 4000}) {
+      cv::Mat1f map(size);
+      for (float& value : map) value = static_cast<float>(random.uniform(0, values)) / 16;
+      map(0, 0) = 0, map(size.height - 1, size.width - 1) = static_cast<float>(values) / 16;
+      const cv::Mat1d slow = slow_promote(as_double(map));
+      promote_few_peaks(map);
+      EXPECT_LT(cv::norm(as_double(map), slow, cv::NORM_INF), 1e-5) << size << ' ' << values;
+    }
+}
+
 TEST(AttenuateBorder, HandComputed) {
   cv::Mat1f map(21, 30, 1.0F);  // a border of 2
   attenuate_border(map);
