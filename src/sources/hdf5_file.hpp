@@ -2,6 +2,8 @@
 
 #include <hdf5.h>
 
+#include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -33,10 +35,12 @@ class Hdf5Id {
   herr_t (*close_)(hid_t) = nullptr;
 };
 
-/// A numeric array of a file whose first axis counts images.
+/// A numeric array of a file whose first axis counts images: whole, or in chunks, which may be compressed by
+/// deflate, shuffled or not.
 class Hdf5Images {
  public:
-  /// std::nullopt if the file has no such array. Throws std::runtime_error if it is not an array of numbers.
+  /// std::nullopt if the file has no such array. Throws std::runtime_error if it is not an array of numbers,
+  /// or is stored in a way that is not read.
   static std::optional<Hdf5Images> open(const Hdf5Id& file, const std::string& name);
 
   const std::vector<hsize_t>& shape() const { return shape_; }
@@ -46,9 +50,17 @@ class Hdf5Images {
   void read(hsize_t index, hid_t type, void* target) const;
 
  private:
+  void find_storage();
+  void read_chunks(hsize_t index, hid_t type, std::uint8_t* target) const;
+  void decode_chunk(const std::vector<hsize_t>& corner, hid_t type, std::vector<std::uint8_t>& numbers) const;
+  void copy_from_chunk(const std::vector<hsize_t>& corner, hsize_t index, std::size_t number_bytes,
+                       const std::vector<std::uint8_t>& numbers, std::uint8_t* target) const;
+
   std::string name_;
-  Hdf5Id data_;
+  Hdf5Id data_, type_;
   std::vector<hsize_t> shape_;
+  std::vector<hsize_t> chunk_;         ///< shape of a compressed chunk
+  std::vector<H5Z_filter_t> filters_;  ///< in the order of writing; none if libhdf5 reads the array
 };
 
 /// Opens a file for reading. libhdf5's own messages on standard error are switched off, here and in read().

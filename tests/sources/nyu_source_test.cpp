@@ -104,6 +104,58 @@ class NyuSourceTest : public ::testing::Test {
   std::unique_ptr<NyuWriter> file_;
 };
 
+// The same numbers, whichever way they lie in the file.
+TEST_F(NyuSourceTest, ReadsArraysStoredInAnyUsualWay) {
+  using Storage = NyuWriter::Storage;
+  const std::vector<std::pair<Storage, std::optional<hid_t>>> ways = {
+      {{.chunked = false, .deflated = false}, {}},
+      {{.deflated = false}, {}},
+      {{}, {}},
+      {{.shuffled = true}, {}},
+      {{.shuffled = true, .deflated = false}, {}},
+      {{.chunk = {2, 5, 7}}, {}},  // fits neither the images nor their sides
+      {{.chunk = {1, 12, 1}, .shuffled = true}, H5T_IEEE_F64BE},
+      {{.chunk = {3, 1, 10}}, H5T_IEEE_F32BE}};
+  const auto value = [](int i, int r, int c, int) { return 1 + i + 0.125 * r + 0.0625 * c; };
+  close();
+  for (std::size_t way = 0; way < ways.size(); ++way) {
+    NyuWriter writer(path_);
+    writer.set_storage(ways[way].first);
+    writer.put<float>("depths", H5T_NATIVE_FLOAT, value, 0, kImages, kHeight, ways[way].second);
+    writer.close();
+    const auto source = open_source(path_.string());
+    Frame frame;
+    for (int i = 0; i < kImages; ++i) {
+      ASSERT_EQ(source->read(frame, kNoWait).status, ReadStatus::frame) << way;
+      for (int r = 0; r < kHeight; ++r)
+        for (int c = 0; c < kWidth; ++c)
+          ASSERT_EQ(static_cast<double>(frame.depth_mm(r, c)), 1000 * value(i, r, c, 0))
+              << way << ' ' << i << ' ' << r << ' ' << c;
+    }
+  }
+}
+
+// libhdf5 itself copies the size of a chunk out of the four bytes.
+TEST_F(NyuSourceTest, AChunkThatGivesLessThanItsSizeIsDamaged) {
+  put_depths();
+  file_->overwrite_chunk("depths", {1, 0, 0},
+                         {0x78, 1, 1, 4, 0, 0xfb, 0xff, 'a', 'b', 'c', 'd', 3, 0xd8, 1, 0x8b});
+  close();
+  const auto source = open_source(path_.string());
+  Frame frame;
+  EXPECT_EQ(source->read(frame, kNoWait).status, ReadStatus::frame);
+  const ReadResult second = source->read(frame, kNoWait);
+  EXPECT_EQ(second.status, ReadStatus::rejected);
+  EXPECT_THAT(second.reason, HasSubstr("depths is damaged here"));
+  EXPECT_EQ(source->read(frame, kNoWait).status, ReadStatus::frame);
+}
+
+TEST_F(NyuSourceTest, AnotherCompressionIsRefusedWithTheReason) {
+  file_->set_storage({.with_checksums = true});
+  put_depths();
+  EXPECT_THAT(error(), HasSubstr("depths is compressed in a way that is not read (filter 3 of HDF5)"));
+}
+
 TEST_F(NyuSourceTest, ReadsImagesDepthsAndObjects) {
   put_depths();
   put_images();

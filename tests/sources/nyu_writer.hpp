@@ -3,7 +3,9 @@
 #include <hdf5.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,11 +32,26 @@ class NyuWriter {
     file_ = -1;
   }
 
+  /// How the arrays written next are stored.
+  struct Storage {
+    std::vector<hsize_t> chunk{};  ///< of image, [colour,] column, row; none: one image
+    bool chunked = true, shuffled = false, deflated = true, with_checksums = false;
+  };
+  void set_storage(const Storage& storage) { storage_ = storage; }
+
+  /// Puts compressed bytes in the place of the chunk at a corner.
+  void overwrite_chunk(const std::string& name, const std::vector<hsize_t>& corner,
+                       const std::vector<std::uint8_t>& bytes) {
+    const hid_t data = H5Dopen2(file_, name.c_str(), H5P_DEFAULT);
+    H5Dwrite_chunk(data, H5P_DEFAULT, 0, corner.data(), bytes.size(), bytes.data());
+    H5Dclose(data);
+  }
+
   /// An array of `shape` whose value at image, row and column (and colour) is value(i, r, c, k); stored as
-  /// image, [colour,] column, row, in chunks of one image.
+  /// image, [colour,] column, row. `stored_as`: the type in the file, that of Value if none is given.
   template <typename Value, typename Function>
   void put(const std::string& name, hid_t type, Function value, int colours = 0, int images = kImages,
-           int height = kHeight) {
+           int height = kHeight, std::optional<hid_t> stored_as = {}) {
     std::vector<hsize_t> shape = {static_cast<hsize_t>(images), kWidth, static_cast<hsize_t>(height)};
     if (colours > 0) shape.insert(shape.begin() + 1, static_cast<hsize_t>(colours));
     std::vector<Value> values;
@@ -44,11 +61,14 @@ class NyuWriter {
           for (int r = 0; r < height; ++r) values.push_back(static_cast<Value>(value(i, r, c, k)));
     const int axes = static_cast<int>(shape.size());
     const hid_t space = H5Screate_simple(axes, shape.data(), nullptr), layout = H5Pcreate(H5P_DATASET_CREATE);
-    std::vector<hsize_t> chunk = shape;
-    chunk[0] = 1;
-    H5Pset_chunk(layout, axes, chunk.data());
-    H5Pset_deflate(layout, 3);
-    const hid_t data = H5Dcreate2(file_, name.c_str(), type, space, H5P_DEFAULT, layout, H5P_DEFAULT);
+    std::vector<hsize_t> chunk = storage_.chunk;
+    if (chunk.empty()) chunk = shape, chunk[0] = 1;
+    if (storage_.chunked) H5Pset_chunk(layout, axes, chunk.data());
+    if (storage_.shuffled) H5Pset_shuffle(layout);
+    if (storage_.deflated) H5Pset_deflate(layout, 3);
+    if (storage_.with_checksums) H5Pset_fletcher32(layout);
+    const hid_t data =
+        H5Dcreate2(file_, name.c_str(), stored_as.value_or(type), space, H5P_DEFAULT, layout, H5P_DEFAULT);
     H5Dwrite(data, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data());
     H5Dclose(data);
     H5Pclose(layout);
@@ -57,6 +77,7 @@ class NyuWriter {
 
  private:
   hid_t file_ = -1;
+  Storage storage_;
 };
 
 }  // namespace saccade
