@@ -70,14 +70,20 @@ std::optional<Hdf5Images> Hdf5Images::open(const Hdf5Id& file, const std::string
   return images;
 }
 
-// libhdf5 (1.10) believes the size of a chunk in the description of the array, and copies that much out of
-// whatever the compressed data gave. So compressed chunks are taken as they are and decompressed here.
+// libhdf5 (1.10) believes the sizes in the description of an array, and copies that much out of whatever a
+// chunk or the array itself holds. So chunks are taken as they are and decompressed here, and an array in one
+// piece has to be as large as it says.
 void Hdf5Images::find_storage() {
   const Hdf5Id creation(H5Dget_create_plist(data_.get()), H5Pclose);
   const H5D_layout_t layout = H5Pget_layout(creation.get());
   if (layout == H5D_VIRTUAL || H5Pget_external_count(creation.get()) > 0)
     throw std::runtime_error(name_ + " is kept in another file, which is not read");
-  if (layout != H5D_CHUNKED) return;
+  if (layout != H5D_CHUNKED) {
+    const hsize_t bytes = product_of(shape_) * H5Tget_size(type_.get());
+    if (const hsize_t stored = H5Dget_storage_size(data_.get()); stored != bytes && stored != 0)
+      throw std::runtime_error(fmt::format("{} has {} bytes instead of {}", name_, stored, bytes));
+    return;
+  }
   const int filters = H5Pget_nfilters(creation.get());
   for (int i = 0; i < filters; ++i) {
     unsigned flags = 0, config = 0;
@@ -89,9 +95,6 @@ void Hdf5Images::find_storage() {
           fmt::format("{} is compressed in a way that is not read (filter {} of HDF5)", name_, filter));
     filters_.push_back(filter);
   }
-  if (filters_.empty()) return;
-  if (std::find(filters_.begin(), filters_.end() - 1, H5Z_FILTER_DEFLATE) != filters_.end() - 1)
-    throw std::runtime_error(name_ + " is compressed more than once");
   chunk_.resize(shape_.size());
   if (H5Pget_chunk(creation.get(), static_cast<int>(chunk_.size()), chunk_.data()) !=
       static_cast<int>(chunk_.size()))
@@ -109,7 +112,7 @@ void Hdf5Images::find_storage() {
 
 void Hdf5Images::read(hsize_t index, hid_t type, void* target) const {
   silence_messages();
-  if (!filters_.empty()) return read_chunks(index, type, static_cast<std::uint8_t*>(target));
+  if (!chunk_.empty()) return read_chunks(index, type, static_cast<std::uint8_t*>(target));
   std::vector<hsize_t> begin(shape_.size(), 0), count = shape_;
   begin.at(0) = index;
   count.at(0) = 1;

@@ -59,8 +59,8 @@ class Hdf5Images {
   std::string name_;
   Hdf5Id data_, type_;
   std::vector<hsize_t> shape_;
-  std::vector<hsize_t> chunk_;         ///< shape of a compressed chunk
-  std::vector<H5Z_filter_t> filters_;  ///< in the order of writing; none if libhdf5 reads the array
+  std::vector<hsize_t> chunk_;         ///< shape of a chunk; empty: the array is in one piece
+  std::vector<H5Z_filter_t> filters_;  ///< of the chunks, in the order of writing
 };
 
 /// Opens a file for reading. libhdf5's own messages on standard error are switched off, here and in read().

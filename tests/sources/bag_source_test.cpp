@@ -231,6 +231,24 @@ TEST_F(BagSourceTest, DamagedRvlIsRejectedWithTheReason) {
 }
 
 // Messages in three parts: the topics of a part may have other numbers, or be missing.
+// OpenCV throws an exception of its own at rows that begin in the middle of a number.
+TEST_F(BagSourceTest, RowsOfHalfNumbersAreRejected) {
+  const MessageWriter writer(false);
+  const cv::Mat1w depth(20, 24, std::uint16_t{1000});
+  TestMessage odd = writer.image("/depth", 2'000'000, depth, "16UC1");
+  const std::size_t step =
+      odd.bytes.size() - depth.total() * 2 - 8;  // then the number of bytes of the pixels
+  ASSERT_EQ(odd.bytes.at(step), 48);
+  odd.bytes[step] = 47;
+  write_ros1_bag(folder_ / "odd.bag", {writer.image("/depth", 1'000'000, depth, "16UC1"), odd}, "none");
+  const auto source = open_source(in("odd.bag"));
+  Frame frame;
+  ASSERT_EQ(source->read(frame, kNoWait).status, ReadStatus::frame);
+  const ReadResult result = source->read(frame, kNoWait);
+  EXPECT_EQ(result.status, ReadStatus::rejected);
+  EXPECT_THAT(result.reason, HasSubstr("a row of 47 bytes does not hold whole numbers"));
+}
+
 TEST_F(BagSourceTest, ASplitRecordingIsOne) {
   const auto all = recording(true);
   for (const bool database : {false, true}) {

@@ -150,6 +150,13 @@ TEST_F(NyuSourceTest, AChunkThatGivesLessThanItsSizeIsDamaged) {
   EXPECT_EQ(source->read(frame, kNoWait).status, ReadStatus::frame);
 }
 
+TEST_F(NyuSourceTest, AChunkThatIsNotCompressedAndTooShortIsDamaged) {
+  file_->set_storage({.deflated = false});
+  put_depths();
+  file_->overwrite_chunk("depths", {0, 0, 0}, {1, 2, 3, 4});
+  EXPECT_THAT(error(), HasSubstr("depths is damaged here"));
+}
+
 TEST_F(NyuSourceTest, AnotherCompressionIsRefusedWithTheReason) {
   file_->set_storage({.with_checksums = true});
   put_depths();

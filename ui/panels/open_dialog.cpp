@@ -47,8 +47,13 @@ std::string forms_text(const std::string& forms, float width) {
     const std::size_t end = std::min(forms.find(", ", begin), forms.size());
     const std::string form = " " + forms.substr(begin, end - begin) + (end < forms.size() ? "," : "");
     const bool fits = ImGui::CalcTextSize((line + form).c_str()).x <= width;
-    line = fits ? line + form : form.substr(1);
-    text += fits ? form : "\n" + line;
+    if (fits) {
+      line += form;
+      text += form;
+    } else {
+      line = form.substr(1);
+      text.append("\n").append(line);
+    }
     begin = end + 2;
   }
   return text;
