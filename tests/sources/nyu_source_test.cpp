@@ -151,9 +151,8 @@ TEST_F(NyuSourceTest, AChunkThatGivesLessThanItsSizeIsDamaged) {
 }
 
 TEST_F(NyuSourceTest, AChunkThatIsNotCompressedAndTooShortIsDamaged) {
-  file_->set_storage({.deflated = false});
   put_depths();
-  file_->overwrite_chunk("depths", {0, 0, 0}, {1, 2, 3, 4});
+  file_->overwrite_chunk("depths", {0, 0, 0}, {1, 2, 3, 4}, 1);
   EXPECT_THAT(error(), HasSubstr("depths is damaged here"));
 }
 

@@ -39,11 +39,11 @@ class NyuWriter {
   };
   void set_storage(const Storage& storage) { storage_ = storage; }
 
-  /// Puts compressed bytes in the place of the chunk at a corner.
+  /// Puts bytes in the place of the chunk at a corner. Bit i of `skipped`: filter i was not used for them.
   void overwrite_chunk(const std::string& name, const std::vector<hsize_t>& corner,
-                       const std::vector<std::uint8_t>& bytes) {
+                       const std::vector<std::uint8_t>& bytes, std::uint32_t skipped = 0) {
     const hid_t data = H5Dopen2(file_, name.c_str(), H5P_DEFAULT);
-    H5Dwrite_chunk(data, H5P_DEFAULT, 0, corner.data(), bytes.size(), bytes.data());
+    H5Dwrite_chunk(data, H5P_DEFAULT, skipped, corner.data(), bytes.size(), bytes.data());
     H5Dclose(data);
   }
 
