@@ -217,8 +217,8 @@ void Viewer::poll_files() {
   if (!portal_.available())
     view_.file_dialog = nullptr;
   else if (!view_.file_dialog)
-    view_.file_dialog = [this](FileDialog dialog, auto chosen) {
-      show_file_dialog(std::move(dialog), std::move(chosen));
+    view_.file_dialog = [this](const FileDialog& dialog, const auto& chosen) {
+      show_file_dialog(dialog, chosen);
     };
 }
 
