@@ -113,7 +113,7 @@ cv::Size pixel_size(const RosImage& image, int type) {
   if (image.big_endian && CV_ELEM_SIZE1(type) > 1) throw std::runtime_error("its pixels are big-endian");
   const std::size_t row = std::size_t{image.width} * static_cast<std::size_t>(CV_ELEM_SIZE(type));
   if (image.step % static_cast<std::size_t>(CV_ELEM_SIZE1(type)) != 0)  // OpenCV has no such images
-    throw std::runtime_error(fmt::format("a row of {} bytes does not hold whole numbers", image.step));
+    throw std::runtime_error(fmt::format("a row of {} bytes ends within a number", image.step));
   if (image.step < row || image.data.size() / image.step < image.height)
     throw std::runtime_error(
         fmt::format("{} bytes are too few for {}x{} pixels", image.data.size(), image.width, image.height));

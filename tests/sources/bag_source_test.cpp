@@ -246,7 +246,7 @@ TEST_F(BagSourceTest, RowsOfHalfNumbersAreRejected) {
   ASSERT_EQ(source->read(frame, kNoWait).status, ReadStatus::frame);
   const ReadResult result = source->read(frame, kNoWait);
   EXPECT_EQ(result.status, ReadStatus::rejected);
-  EXPECT_THAT(result.reason, HasSubstr("a row of 47 bytes does not hold whole numbers"));
+  EXPECT_THAT(result.reason, HasSubstr("a row of 47 bytes ends within a number"));
 }
 
 TEST_F(BagSourceTest, ASplitRecordingIsOne) {
