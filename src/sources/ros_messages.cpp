@@ -172,7 +172,7 @@ class CompressedDepth {
       decode_rvl(data_.subspan(kSizes), depth);
       return depth;
     }
-    const cv::Mat png = decode_png(data_);
+    cv::Mat png = decode_png(data_);
     if (png.type() != CV_16UC1) throw std::runtime_error("its PNG is not 16-bit grey");
     return png;
   }
