@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -23,13 +24,13 @@ namespace {
 
 constexpr int kPoints = 10;
 
+/// A camera that goes around a scene, with a Kinect's noise.
 std::vector<Frame> synthetic(const std::string& scene) {
-  SyntheticSource source("synthetic:" + scene + "?seed=21&noise=kinect&frames=20");
-  std::vector<Frame> frames;
-  Frame frame;
-  while (source.read(frame, std::chrono::milliseconds(0)).status == ReadStatus::frame)
-    frames.push_back(Frame(frame));
-  for (Frame& each : frames) each.depth_mm = each.depth_mm.clone();
+  SyntheticSource source("synthetic:" + scene + "?seed=21&noise=kinect&camera=orbit&frames=20");
+  std::vector<Frame> frames(20);
+  for (Frame& frame : frames)  // each with memory of its own
+    if (source.read(frame, std::chrono::milliseconds(0)).status != ReadStatus::frame)
+      throw std::logic_error("the synthetic sequence ended early");
   return frames;
 }
 
