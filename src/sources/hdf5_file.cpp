@@ -79,8 +79,10 @@ void Hdf5Images::find_storage() {
   if (layout == H5D_VIRTUAL || H5Pget_external_count(creation.get()) > 0)
     throw std::runtime_error(name_ + " is kept in another file, which is not read");
   if (layout != H5D_CHUNKED) {
-    const hsize_t bytes = product_of(shape_) * H5Tget_size(type_.get());
-    if (const hsize_t stored = H5Dget_storage_size(data_.get()); stored != bytes && stored != 0)
+    const hsize_t bytes = product_of(shape_) * H5Tget_size(type_.get()),
+                  stored = H5Dget_storage_size(data_.get());
+    const bool never_written = stored == 0 && layout == H5D_CONTIGUOUS;  // zeros
+    if (stored != bytes && !never_written)
       throw std::runtime_error(fmt::format("{} has {} bytes instead of {}", name_, stored, bytes));
     return;
   }

@@ -121,6 +121,7 @@ TEST_F(NyuSourceTest, ReadsArraysStoredInAnyUsualWay) {
   using Storage = NyuWriter::Storage;
   const std::vector<std::pair<Storage, std::optional<hid_t>>> ways = {
       {{.chunked = false, .deflated = false}, {}},
+      {{.chunked = false, .deflated = false, .compact = true}, {}},
       {{.deflated = false}, {}},
       {{}, {}},
       {{.shuffled = true}, {}},
@@ -159,6 +160,21 @@ TEST_F(NyuSourceTest, AChunkThatIsNotCompressedAndTooShortIsDamaged) {
   put_depths();
   file_->overwrite_chunk("depths", {1, 0, 0}, {1, 2, 3, 4}, 1);
   expect_second_is_damaged();
+}
+
+// libhdf5 itself copies the array from nowhere.
+TEST_F(NyuSourceTest, AnArrayOfNoBytesInItsDescriptionIsRefused) {
+  file_->set_storage({.chunked = false, .deflated = false, .compact = true});
+  put_depths();
+  file_->close();
+  auto bytes = read_file(path_);
+  constexpr int kBytes = kImages * kWidth * kHeight * 4;
+  const std::vector<std::uint8_t> layout = {3, H5D_COMPACT, kBytes & 0xff, kBytes >> 8};  // its version first
+  const auto found = std::search(bytes.begin(), bytes.end(), layout.begin(), layout.end());
+  ASSERT_NE(found, bytes.end());
+  found[2] = found[3] = 0;
+  write_file(path_, bytes);
+  EXPECT_THAT(error(), HasSubstr("depths has 0 bytes instead of 1440"));
 }
 
 TEST_F(NyuSourceTest, AnotherCompressionIsRefusedWithTheReason) {

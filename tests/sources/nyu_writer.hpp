@@ -36,6 +36,7 @@ class NyuWriter {
   struct Storage {
     std::vector<hsize_t> chunk{};  ///< of image, [colour,] column, row; none: one image
     bool chunked = true, shuffled = false, deflated = true, with_checksums = false;
+    bool compact = false;  ///< within the description of the array
   };
   void set_storage(const Storage& storage) { storage_ = storage; }
 
@@ -64,6 +65,7 @@ class NyuWriter {
     std::vector<hsize_t> chunk = storage_.chunk;
     if (chunk.empty()) chunk = shape, chunk[0] = 1;
     if (storage_.chunked) H5Pset_chunk(layout, axes, chunk.data());
+    if (storage_.compact) H5Pset_layout(layout, H5D_COMPACT);
     if (storage_.shuffled) H5Pset_shuffle(layout);
     if (storage_.deflated) H5Pset_deflate(layout, 3);
     if (storage_.with_checksums) H5Pset_fletcher32(layout);
