@@ -151,8 +151,8 @@ std::vector<Bytes> mat_seeds() {
           seed({.chunk = {2, 5, 7}, .shuffled = true}, {})};
 }
 
-// libhdf5 takes half a megabyte for each file that it opens. What it keeps for the next one AddressSanitizer
-// need not map anew.
+// libhdf5 takes half a megabyte for each file that it opens. It keeps the memory for the next one here, since
+// AddressSanitizer would map new pages for it each time.
 bool play_any_mat(Input bytes) {
   static const herr_t kept = H5set_free_list_limits(-1, -1, -1, -1, -1, -1);
   static_cast<void>(kept);
