@@ -43,7 +43,7 @@ float width_of(const std::vector<std::string>& names, const ViewContext& view) {
 }
 
 // The name of the source, its state, and the running recording, up to `right`; a long name leaves room for
-// the rest.
+// the rest, and the state is left out where little of the name would be seen.
 void draw_source(ViewContext& view, float right) {
   const std::string name = view.source.uri.empty() ? "Saccade" : short_name(view.source.uri);
   const std::string state = source_line(view);
@@ -56,13 +56,18 @@ void draw_source(ViewContext& view, float right) {
   if (records) rest += ImGui::CalcTextSize(recording.c_str()).x + gap;
   ImGui::AlignTextToFramePadding();
   ImGui::PushFont(view.fonts.bold);
-  clipped_text(name, std::max(room() - rest, room() / 3));
+  const float name_room = std::max(room() - rest, room() / 3);
+  const bool name_only = name_room < std::min(ImGui::CalcTextSize(name.c_str()).x, view.px(60));
+  clipped_text(name, name_only ? room() : name_room);
   ImGui::PopFont();
-  explain(view.source.uri);
+  log_place(view, "source");
+  explain(name_only ? view.source.uri + "\n" + state : view.source.uri);
+  if (name_only) return;
   ImGui::SameLine(0, gap);
   ImGui::PushStyleColor(ImGuiCol_Text, state_colour(view));
   clipped_text(state, room());
   ImGui::PopStyleColor();
+  log_place(view, "state");
   explain(view.source.connection.text);
   if (!records) return;
   ImGui::SameLine(0, gap);

@@ -101,7 +101,7 @@ void draw_attention(ViewContext& view, Settings& s) {
     s.foa = std::clamp(static_cast<double>(foa), 1.0, 1000.0);
 }
 
-void draw_seconds(const char* name, const char* explanation, double most, double& seconds) {
+void draw_seconds(const char* name, const std::string& explanation, double most, double& seconds) {
   auto value = static_cast<float>(seconds);
   ImGui::PushID(name);
   if (named_row(name, explanation, [&] {
@@ -122,10 +122,19 @@ void draw_over_time(ViewContext& view) {
       "from one to the next. auto: for sensors, recordings and videos",
       s.tracking);
   if (s.tracking != Tracking::off) {
-    draw_seconds("Dwell", "How long the gaze rests on one object", 5, s.dwell_s);
-    draw_seconds("Return after", "How long after it has left an object the gaze may return to it", 30,
-                 s.return_after_s);
-    draw_seconds("Memory", "How long an object out of sight is remembered", 120, s.memory_s);
+    const bool stills = s.tracking == Tracking::automatic && view.source.phase == SessionState::Phase::open &&
+                        !view.source.source.sequence;
+    const auto explained = [&](std::string text) {
+      return stills ? text + ". These images are no sequence: nothing is tracked unless Tracking is on"
+                    : text;
+    };
+    ImGui::BeginDisabled(stills);
+    draw_seconds("Dwell", explained("How long the gaze rests on one object"), 5, s.dwell_s);
+    log_place(view, "dwell");
+    draw_seconds("Return after", explained("How long after it has left an object the gaze may return to it"),
+                 30, s.return_after_s);
+    draw_seconds("Memory", explained("How long an object out of sight is remembered"), 120, s.memory_s);
+    ImGui::EndDisabled();
   }
   ImGui::EndDisabled();
 }

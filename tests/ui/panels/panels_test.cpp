@@ -44,6 +44,20 @@ TEST_F(ViewerPanelsTest, TheLeastConfidenceIsSetByItsSliderForProtoOnly) {
   EXPECT_FALSE(view_.places.contains("confidence"));
 }
 
+TEST_F(ViewerPanelsTest, DwellIsSetForASequenceAndNotForStills) {
+  const Draw draw = [this] { draw_tuning_panel(view_); };
+  show_result();
+  click("dwell", draw, 0.9F);
+  EXPECT_EQ(state_.settings.a.dwell_s, Settings{}.dwell_s);
+  state_.settings.a.tracking = Tracking::on;
+  click("dwell", draw, 0.9F);
+  EXPECT_GT(state_.settings.a.dwell_s, 2);
+  state_.settings.a = Settings{};
+  view_.source.source.sequence = true;
+  click("dwell", draw, 0.9F);
+  EXPECT_GT(state_.settings.a.dwell_s, 2);
+}
+
 TEST_F(ViewerPanelsTest, AModelOfTheImageHasNoKernel) {
   state_.settings.a.model = "itti";
   click(
@@ -296,6 +310,25 @@ TEST_F(WideTest, TheFontsHaveTheCharactersOfTheTexts) {
   };
   for (ImFont* font : {atlas.Fonts[0], fonts.bold}) has(font, u"Az09~\u00c9\u0161\u00d7\u2013\u2026\u2212");
   has(fonts.large, u"Az09~\u2026");
+}
+
+TEST_F(WideTest, TheNameOfTheSourceIsSeenBeforeItsState) {
+  const Draw draw = [this] { draw_top_bar(view_); };
+  show_result();
+  view_.source.uri = "/recordings/of_a_kitchen.oni";
+  const auto width_of = [&](const char* place) {
+    const auto [left, top, right, bottom] = view_.places.at(place);
+    return right - left;
+  };
+  settled(draw);
+  const float whole = ImGui::CalcTextSize("of_a_kitchen.oni").x;
+  EXPECT_NEAR(width_of("source"), whole, 1);
+  EXPECT_TRUE(view_.places.contains("state"));
+  view_.places.clear();
+  ImGui::GetIO().DisplaySize = {640, 400};
+  settled(draw);
+  EXPECT_FALSE(view_.places.contains("state"));
+  EXPECT_GT(width_of("source"), 40);
 }
 
 TEST_F(WideTest, ADropDownListCanBeClosed) {
