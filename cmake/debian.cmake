@@ -39,7 +39,7 @@ if(SACCADE_PYTHON)
 endif()
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS "libopencv-dev, libeigen3-dev, libfmt-dev, libhwy-dev, libturbojpeg0-dev, \
 libspng-dev, libdeflate-dev, libavformat-dev, libavcodec-dev, \
-libavutil-dev, libswscale-dev, liblz4-dev, libzstd-dev, libbz2-dev, libsqlite3-dev, libhdf5-dev, libopenni2-dev")
+libavutil-dev, libswscale-dev, liblz4-dev, libzstd-dev, libbz2-dev, libsqlite3-dev, libopenni2-dev")
 
 set(CPACK_PRE_BUILD_SCRIPTS ${CMAKE_CURRENT_LIST_DIR}/debian_files.cmake)
 set(CPACK_SACCADE_DATE ${changelog_date})

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "core/file.hpp"
 #include "core/image_size.hpp"
 #include "sources/hdf5_file.hpp"
 
@@ -38,12 +39,22 @@ cv::Mat1w number_objects(const cv::Mat1w& classes, const cv::Mat1w& instances) {
   return labels;
 }
 
+// Throws Error (unreadable) with the reason.
+Hdf5File open_file(const fs::path& path) {
+  try {
+    return Hdf5File(path);
+  } catch (const Error&) {
+    throw;
+  } catch (const std::runtime_error& error) {
+    throw unreadable(error.what(), path.string(), kHint);
+  }
+}
+
 class NyuSource : public FrameSource {
  public:
   NyuSource(const fs::path& path, const InputSettings& settings)
-      : path_(path.string()), file_(open_hdf5(path)) {
+      : path_(path.string()), file_(open_file(path)) {
     if (settings.depth_unit_mm > 0) mm_per_unit_ = static_cast<float>(settings.depth_unit_mm);
-    if (!file_.valid()) throw unreadable("not an HDF5 file", path_, kHint);
     try {
       open_arrays();
     } catch (const std::runtime_error& error) {
@@ -56,6 +67,9 @@ class NyuSource : public FrameSource {
     // The RGB camera of the data set's toolbox, which counts pixels from 1; depth is registered to it.
     if (info_.size == cv::Size(640, 480))
       info_.intrinsics = {518.857901, 519.469611, 324.582449, 252.736166, IntrinsicsOrigin::sensor};
+    if (file_.missing() > 0)
+      info_.notes.push_back(fmt::format("the file is truncated: {} are missing at its end",
+                                        megabytes(static_cast<double>(file_.missing()))));
     if (!labels_) info_.notes.push_back("there are no labels that can be used in the file");
     if (labels_ && !instances_)
       info_.notes.push_back("there are no instances that can be used: each class counts as one object");
@@ -97,8 +111,8 @@ class NyuSource : public FrameSource {
     if (!depths_) throw std::runtime_error("there are no depths in the file");
     const auto& shape = depths_->shape();
     if (shape.size() != 3 || shape[0] == 0) throw std::runtime_error("depths are not N x W x H");
-    constexpr hsize_t kLeast = 8;
-    for (const hsize_t side : {shape[1], shape[2]})
+    constexpr std::uint64_t kLeast = 8;
+    for (const std::uint64_t side : {shape[1], shape[2]})
       if (side < kLeast || side > kLargestSide)
         throw std::runtime_error(
             fmt::format("{}x{} is not of 8 to {} pixels a side", shape[1], shape[2], kLargestSide));
@@ -111,7 +125,7 @@ class NyuSource : public FrameSource {
   }
 
   // Depth does not need it: what does not fit is a note.
-  std::optional<Hdf5Images> open_companion(const std::string& name, const std::vector<hsize_t>& shape) {
+  std::optional<Hdf5Images> open_companion(const std::string& name, const std::vector<std::uint64_t>& shape) {
     try {
       auto array = Hdf5Images::open(file_, name);
       if (!array || array->shape() == shape) return array;
@@ -128,7 +142,7 @@ class NyuSource : public FrameSource {
   void read_depth(Frame& frame) {
     constexpr float kFarthest_mm = 1e7F;
     cv::Mat1f depth(stored());
-    depths_->read(static_cast<hsize_t>(frame.index), H5T_NATIVE_FLOAT, depth.data);
+    depths_->read(static_cast<std::uint64_t>(frame.index), std::span(depth.ptr<float>(), depth.total()));
     for (float& z : depth) {
       z *= mm_per_unit_;
       if (!(z > 0 && z < kFarthest_mm)) z = 0;  // also where it is not a number
@@ -140,7 +154,8 @@ class NyuSource : public FrameSource {
     if (!images_) return;
     const cv::Size plane = stored();
     cv::Mat1b planes(3 * plane.height, plane.width);
-    images_->read(static_cast<hsize_t>(frame.index), H5T_NATIVE_UINT8, planes.data);
+    images_->read(static_cast<std::uint64_t>(frame.index),
+                  std::span(planes.ptr<std::uint8_t>(), planes.total()));
     std::array<cv::Mat1b, 3> bgr;
     for (int i = 0; i < 3; ++i) {  // stored as R, G, B
       const cv::Mat1b one = planes.rowRange(i * plane.height, (i + 1) * plane.height);
@@ -153,7 +168,7 @@ class NyuSource : public FrameSource {
 
   cv::Mat1w read_numbers(const Hdf5Images& array, std::int64_t index) const {
     cv::Mat1w turned(stored()), image;
-    array.read(static_cast<hsize_t>(index), H5T_NATIVE_UINT16, turned.data);
+    array.read(static_cast<std::uint64_t>(index), std::span(turned.ptr<std::uint16_t>(), turned.total()));
     cv::transpose(turned, image);
     return image;
   }
@@ -167,7 +182,7 @@ class NyuSource : public FrameSource {
   }
 
   std::string path_;
-  Hdf5Id file_;
+  Hdf5File file_;
   SourceInfo info_;
   std::optional<Hdf5Images> depths_, images_, labels_, instances_;
   float mm_per_unit_ = 1000;  // the arrays are in metres

@@ -1,11 +1,11 @@
 // Small files in the format of NYU Depth V2.
-#include <fcntl.h>
 #include <hdf5.h>
-#include <sys/file.h>
-#include <unistd.h>
 
+#include <cmath>
 #include <limits>
 #include <memory>
+#include <set>
+#include <span>
 #include <utility>
 
 #include <gmock/gmock.h>
@@ -14,6 +14,7 @@
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "nyu_writer.hpp"
+#include "sources/hdf5_file.hpp"
 #include "sources/open_source.hpp"
 #include "tests/support/no_wait.hpp"
 
@@ -21,6 +22,8 @@ namespace saccade {
 namespace {
 
 namespace fs = std::filesystem;
+using ::testing::Contains;
+using ::testing::Each;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -293,24 +296,93 @@ TEST_F(NyuSourceTest, DamagedColourAndLabelsLeaveTheDepth) {
   }
 }
 
+// What is there is read, and the rest rejected, wherever the file ends.
 TEST_F(NyuSourceTest, ACutFile) {
   put_depths();
   put_images();
   close();
-  fs::resize_file(path_, fs::file_size(path_) / 2);
-  EXPECT_THAT(error(), HasSubstr("not an HDF5 file"));
+  const auto bytes = read_file(path_);
+  std::set<int> read;
+  constexpr std::size_t kStep = 37;  // bytes
+  for (std::size_t size = bytes.size() - 1; size > kStep; size -= kStep) {
+    write_file(path_, std::span(bytes).first(size));
+    std::unique_ptr<FrameSource> source;
+    try {
+      source = open_source(path_.string());
+    } catch (const Error& error) {
+      EXPECT_EQ(error.status(), ExitStatus::unreadable) << size;
+      continue;
+    }
+    EXPECT_THAT(source->info().notes, Contains(HasSubstr("the file is truncated"))) << size;
+    Frame frame;
+    int images = 0;
+    for (int i = 0; i < kImages; ++i) {
+      const ReadResult result = source->read(frame, kNoWait);
+      if (result.status == ReadStatus::frame) {
+        ++images;
+        ASSERT_NEAR(frame.depth_mm(3, 8), 1000 * (1 + i + 0.3 + 0.08), 0.01) << size;
+      } else {
+        ASSERT_EQ(result.status, ReadStatus::rejected) << size;
+        EXPECT_EQ(result.reason, "depths is damaged or cut off here") << size;
+      }
+    }
+    read.insert(images);
+  }
+  EXPECT_THAT(read, Contains(kImages));
+  EXPECT_GT(read.size(), 1U) << "some sizes hold some images";
 }
 
-// A lock that somebody else holds, or a file system without locks, does not keep the file from being read.
-TEST_F(NyuSourceTest, NeedsNoLock) {
-  put_depths();
+TEST_F(NyuSourceTest, ANewerFormOfHdf5IsRefusedWithTheWayOut) {
   close();
-  const int descriptor = ::open(path_.c_str(), O_RDONLY | O_CLOEXEC);
-  ASSERT_EQ(::flock(descriptor, LOCK_EX | LOCK_NB), 0);
-  const hid_t with_lock = H5Fopen(path_.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
-  EXPECT_LT(with_lock, 0) << "the library's default is to take a lock";
-  EXPECT_EQ(open_source(path_.string())->info().frame_count, kImages);
-  ::close(descriptor);
+  const hid_t access = H5Pcreate(H5P_FILE_ACCESS);
+  H5Pset_libver_bounds(access, H5F_LIBVER_LATEST, H5F_LIBVER_LATEST);
+  H5Fclose(H5Fcreate(path_.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access));
+  H5Pclose(access);
+  EXPECT_THAT(error(), HasSubstr("a newer form of HDF5, which is not read: write it with MATLAB"));
+}
+
+// Numbers of every usual type, at the ends of what they can be.
+TEST_F(NyuSourceTest, ReadsNumbersOfEveryType) {
+  const std::vector<std::pair<hid_t, double>> types = {
+      {H5T_STD_I8LE, -5},       {H5T_STD_U8LE, 200},       {H5T_STD_I16LE, -5},
+      {H5T_STD_I16BE, 300},     {H5T_STD_U16BE, 60'000},   {H5T_STD_I32LE, -100'000},
+      {H5T_STD_I32BE, 100'000}, {H5T_STD_U32LE, 3e9},      {H5T_STD_U32BE, 70'000},
+      {H5T_STD_I64LE, -1e15},   {H5T_STD_I64BE, 70'000},   {H5T_STD_U64LE, 1e15},
+      {H5T_STD_U64BE, 70'000},  {H5T_IEEE_F32LE, 7.75},    {H5T_IEEE_F32BE, -7.75},
+      {H5T_IEEE_F64LE, 1e300},  {H5T_IEEE_F64LE, -1e300},  {H5T_IEEE_F64BE, 7.75},
+      {H5T_IEEE_F64LE, NAN},    {H5T_IEEE_F32LE, INFINITY}};
+  close();
+  for (const auto& [type, value] : types) {
+    NyuWriter writer(path_);
+    writer.put<double>(
+        "numbers", H5T_NATIVE_DOUBLE, [&, v = value](int, int, int, int) { return v; }, 0, 1, kHeight, type);
+    writer.close();
+    const Hdf5File file(path_);
+    const auto numbers = Hdf5Images::open(file, "numbers");
+    ASSERT_TRUE(numbers);
+    constexpr std::size_t kNumbers = kWidth * kHeight;
+    std::vector<float> floats(kNumbers);
+    std::vector<std::uint8_t> bytes(kNumbers);
+    std::vector<std::uint16_t> words(kNumbers);
+    numbers->read(0, std::span(floats));
+    numbers->read(0, std::span(bytes));
+    numbers->read(0, std::span(words));
+    // What libhdf5 makes of it.
+    const hid_t other = H5Fopen(path_.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT),
+                data = H5Dopen2(other, "numbers", H5P_DEFAULT);
+    std::vector<float> float_truth(kNumbers);
+    std::vector<std::uint8_t> byte_truth(kNumbers);
+    std::vector<std::uint16_t> word_truth(kNumbers);
+    H5Dread(data, H5T_NATIVE_FLOAT, H5S_ALL, H5S_ALL, H5P_DEFAULT, float_truth.data());
+    H5Dread(data, H5T_NATIVE_UINT8, H5S_ALL, H5S_ALL, H5P_DEFAULT, byte_truth.data());
+    H5Dread(data, H5T_NATIVE_UINT16, H5S_ALL, H5S_ALL, H5P_DEFAULT, word_truth.data());
+    H5Dclose(data);
+    H5Fclose(other);
+    EXPECT_THAT(floats, Each(::testing::NanSensitiveFloatEq(float_truth[0]))) << value;
+    if (std::isnan(value)) continue;  // libhdf5 gives the largest or the smallest
+    EXPECT_THAT(bytes, Each(byte_truth[0])) << value;
+    EXPECT_THAT(words, Each(word_truth[0])) << value;
+  }
 }
 
 }  // namespace
