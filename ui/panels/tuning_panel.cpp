@@ -124,7 +124,7 @@ void draw_over_time(ViewContext& view) {
   if (s.tracking != Tracking::off) {
     const bool stills = s.tracking == Tracking::automatic && view.source.phase == SessionState::Phase::open &&
                         !view.source.source.sequence;
-    const auto explained = [&](std::string text) {
+    const auto explained = [&](const std::string& text) {
       return stills ? text + ". These images are no sequence: nothing is tracked unless Tracking is on"
                     : text;
     };
