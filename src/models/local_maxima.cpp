@@ -9,22 +9,6 @@ namespace {
 
 std::span<float> row_of(cv::Mat1f& map, int row) { return {map[row], static_cast<std::size_t>(map.cols)}; }
 
-// Whether no neighbour is higher and none before it in reading order as high: a plateau counts about once.
-bool is_peak(const cv::Mat1f& map, int row, int col) {
-  const float value = map(row, col);
-  const int first = std::max(0, col - 1), last = std::min(map.cols - 1, col + 1);
-  const float* here = map[row];
-  if (col > 0 && here[first] >= value) return false;  // most pixels of a slope end here or in the next line
-  if (here[last] > value) return false;
-  if (row > 0)
-    for (int c = first; c <= last; ++c)
-      if (map(row - 1, c) >= value) return false;
-  if (row + 1 < map.rows)
-    for (int c = first; c <= last; ++c)
-      if (map(row + 1, c) > value) return false;
-  return true;
-}
-
 // By value: compilers make no vectors of std::max, which gives references.
 constexpr float higher(float a, float b) { return a > b ? a : b; }
 
@@ -37,25 +21,24 @@ struct Peaks {
   void add(float peak) { count += 1, sum += static_cast<double>(peak); }
 };
 
-// The columns with two neighbours are decided without branches, so that compilers make vectors of it.
+// A peak is a pixel that no neighbour exceeds and none before it in reading order equals: a plateau counts
+// about once. Without branches, so that compilers make vectors of it.
 Peaks find_peaks(const cv::Mat1f& map) {
-  Peaks peaks;
-  const int last = map.cols - 1;
-  const std::vector<float> outside(static_cast<std::size_t>(map.cols), -1.0F);
+  constexpr int kRim = 1;
+  cv::Mat1f padded;
+  cv::copyMakeBorder(map, padded, kRim, kRim, kRim, kRim, cv::BORDER_CONSTANT, cv::Scalar(-1));  // below all
   std::vector<float> peak_values(static_cast<std::size_t>(map.cols));
   float* const found = peak_values.data();
+  Peaks peaks;
   for (int r = 0; r < map.rows; ++r) {
-    const float* here = map[r];
-    const float* up = r > 0 ? map[r - 1] : outside.data();
-    const float* down = r + 1 < map.rows ? map[r + 1] : outside.data();
-    for (int c = 1; c < last; ++c) {
+    const float *up = padded[r] + kRim, *here = padded[r + 1] + kRim, *down = padded[r + 2] + kRim;
+    for (int c = 0; c < map.cols; ++c) {
       const float before = higher(higher(higher(up[c - 1], up[c]), up[c + 1]), here[c - 1]);
       const float after = higher(higher(higher(down[c - 1], down[c]), down[c + 1]), here[c + 1]);
       const float peak = before < here[c] ? here[c] : 0;
       found[c] = after <= here[c] ? peak : 0;
     }
-    for (const int c : {0, last}) found[c] = is_peak(map, r, c) ? here[c] : 0;
-    for (int c = 0; c <= last; ++c)
+    for (int c = 0; c < map.cols; ++c)
       if (found[c] >= Peaks::kCounts) peaks.add(found[c]);
   }
   return peaks;

@@ -22,8 +22,10 @@ struct Ledger {
   bool operator==(const Ledger&) const = default;
 };
 
-/// The counters behind a Ledger. Lock-free; any thread may count and read.
-class LedgerCounters {
+/// The counters behind a Ledger. Lock-free; any thread may count and read. `Counter` is an atomic integer; a
+/// test has one that changes while it is read.
+template <typename Counter>
+class LedgerCountersOf {
  public:
   enum Event { captured, processed, replaced, stopped, rejected };
 
@@ -47,7 +49,9 @@ class LedgerCounters {
     return ledger;
   }
 
-  std::atomic<std::int64_t> counts_[rejected + 1] = {};
+  Counter counts_[rejected + 1] = {};
 };
+
+using LedgerCounters = LedgerCountersOf<std::atomic<std::int64_t>>;
 
 }  // namespace saccade

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/file.hpp"
+#include "core/folder_lock.hpp"
 #include "core/png.hpp"
 #include "tests/support/places.hpp"
 #include "tests/support/subprocess.hpp"
@@ -202,6 +203,18 @@ TEST_F(WrongInputs, TwoProcessesInOneFolder) {
   EXPECT_THAT(outcome.err, HasSubstr("the folder is in use by saccade run, process "));
   EXPECT_FALSE(fs::exists(folder_ / "o/.saccade.lock"));
   EXPECT_EQ(nlohmann::json::parse(text("o/manifest.json"))["status"], "interrupted");
+}
+
+TEST_F(WrongInputs, AFolderInUseIsLeftAlone) {
+  ASSERT_EQ(shell("$P eval '" + kScene + "' --levels 0..2 --quiet --out shard").status, kDone);
+  fs::create_directory(folder_ / "o");
+  const FolderLock lock(folder_ / "o", "the test");
+  const std::string orbit = "'synthetic:table?frames=2&size=160x120&camera=orbit'";
+  for (const std::string& command :
+       {"run '" + kScene + "' --levels 0..2", "eval '" + kScene + "' --levels 0..2",
+        "eval " + orbit + " --levels 0..2 --over-time", std::string("eval --merge shard")})
+    expect(kFailed, "the folder is in use by the test, process ", "$P " + command + " --quiet --out o");
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_ / "o"), {}), 1) << "the lock";
 }
 
 TEST_F(WrongInputs, AnOutputFolderThatIsDeletedMeanwhile) {

@@ -5,19 +5,17 @@
 
 #include <algorithm>
 #include <chrono>
-#include <filesystem>
 #include <limits>
 #include <map>
-#include <stdexcept>
 #include <string>
 
 #include <benchmark/benchmark.h>
-#include <opencv2/imgcodecs.hpp>
 
+#include "frames.hpp"
 #include "models/model.hpp"
 #include "processor_time.hpp"
+#include "register.hpp"
 #include "settings/settings.hpp"
-#include "sources/synthetic_source.hpp"
 
 namespace saccade {
 namespace {
@@ -27,26 +25,6 @@ constexpr int kRounds = 40;
 double wall_ms() {
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch())
       .count();
-}
-
-/// 640x480 with colour and a Kinect's noise.
-Frame synthetic_table() {
-  SyntheticSource source("synthetic:table?seed=1&noise=kinect&missing=0.2&frames=1");
-  Frame frame;
-  if (source.read(frame, std::chrono::milliseconds(0)).status != ReadStatus::frame)
-    throw std::logic_error("the synthetic table has no frame");
-  return frame;
-}
-
-/// A frame of a kitchen; without depth if it is not there.
-Frame kitchen() {
-  const std::filesystem::path folder = std::filesystem::path(SACCADE_SHARED_DIR) / "data/kitchen_sequence";
-  Frame frame;
-  if (!std::filesystem::exists(folder / "0000_depth.png")) return frame;
-  cv::imread((folder / "0000_depth.png").string(), cv::IMREAD_UNCHANGED).convertTo(frame.depth_mm, CV_32F);
-  frame.colour = cv::imread((folder / "0000_rgb.jpg").string());
-  frame.intrinsics = Intrinsics::guess_for(frame.depth_mm.size());
-  return frame;
 }
 
 void run(benchmark::State& state, const Frame& frame, int workers) {
@@ -73,9 +51,12 @@ void run(benchmark::State& state, const Frame& frame, int workers) {
   state.counters["ratio"] = smallest["combined"] / smallest["symmetry3d"];
 }
 
-void register_all() {
-  for (const auto& [name, frame] : {std::pair{"table", synthetic_table()}, std::pair{"kitchen", kitchen()}})
-    if (!frame.depth_mm.empty())
+}  // namespace
+
+void register_benchmarks() {
+  for (const auto& [name, uri] :
+       {std::pair{"table", kBenchTable}, std::pair{"kitchen", shared_data("kitchen_sequence")}})
+    for (const Frame& frame : read_frames(uri, 1))
       for (const int workers : {1, 2})
         benchmark::RegisterBenchmark(
             (std::string(name) + "640x480/threads:" + std::to_string(workers)).c_str(),
@@ -84,7 +65,4 @@ void register_all() {
             ->Iterations(1);
 }
 
-[[maybe_unused]] const bool registered = (register_all(), true);
-
-}  // namespace
 }  // namespace saccade

@@ -1,37 +1,23 @@
 // The operator and its stages for several instruction sets, threads, k and image sizes, and the reference in
 // the same run. Counters: milliseconds of each stage per frame, and the share of valid pixels.
 
-#include <chrono>
-#include <filesystem>
-#include <stdexcept>
 #include <string>
 
 #include <benchmark/benchmark.h>
-#include <opencv2/imgcodecs.hpp>
 
 #include "core/error.hpp"
+#include "frames.hpp"
+#include "register.hpp"
 #include "saliency/reference.hpp"
 #include "saliency/symmetry3d.hpp"
-#include "sources/synthetic_source.hpp"
 
 namespace saccade {
 namespace {
 
-/// The frame of `saccade bench`: a table with a Kinect's noise, a fifth of it missing.
 cv::Mat1f table(cv::Size size) {
-  SyntheticSource source("synthetic:table?seed=1&noise=kinect&missing=0.2&frames=1&size=" +
-                         std::to_string(size.width) + "x" + std::to_string(size.height));
-  Frame frame;
-  if (source.read(frame, std::chrono::milliseconds(0)).status != ReadStatus::frame)
-    throw std::logic_error("the synthetic table has no frame");
-  return frame.depth_mm;
-}
-
-cv::Mat1f real_frame(const std::string& name) {
-  const std::filesystem::path path = std::filesystem::path(SACCADE_SHARED_DIR) / "data" / name;
-  cv::Mat1f depth;
-  if (std::filesystem::exists(path)) cv::imread(path.string(), cv::IMREAD_UNCHANGED).convertTo(depth, CV_32F);
-  return depth;
+  return read_frames(kBenchTable + "&size=" + std::to_string(size.width) + "x" + std::to_string(size.height))
+      .front()
+      .depth_mm;
 }
 
 void run(benchmark::State& state, const cv::Mat1f& depth, const std::string& simd, int workers, int kernel) {
@@ -71,7 +57,9 @@ bool can_run(const std::string& simd) {
   }
 }
 
-void register_all() {
+}  // namespace
+
+void register_benchmarks() {
   const auto add_run = [](const std::string& image, const cv::Mat1f& depth, const std::string& simd,
                           int workers, int kernel) {
     add(image + "/" + simd + "/threads:" + std::to_string(workers) + "/k:" + std::to_string(kernel),
@@ -90,13 +78,10 @@ void register_all() {
               workers, 15);
   for (const std::string name :
        {"osd_full/0000_depth.png", "rooms_avd/0000_depth.png", "kitchen_sequence/0000_depth.png"})
-    if (const cv::Mat1f depth = real_frame(name); !depth.empty())
+    for (const Frame& frame : read_frames(shared_data(name), 1))
       for (const std::string simd : {"avx512", "avx2"})
         if (can_run(simd))
-          for (const int workers : {1, 2}) add_run(name, depth, simd, workers, 15);
+          for (const int workers : {1, 2}) add_run(name, frame.depth_mm, simd, workers, 15);
 }
 
-[[maybe_unused]] const bool registered = (register_all(), true);
-
-}  // namespace
 }  // namespace saccade

@@ -1,21 +1,22 @@
 // What the files of a frame cost: the parts of `run --dump overlay,maps` on one thread, processor time. The
 // frames are a synthetic table with a Kinect's noise and the first one of the bundled recording.
 
-#include <chrono>
+#include <unistd.h>
+
 #include <filesystem>
-#include <stdexcept>
 #include <string>
 
 #include <benchmark/benchmark.h>
 
 #include "core/file.hpp"
 #include "core/png.hpp"
+#include "frames.hpp"
 #include "output/colour_map.hpp"
 #include "output/frame_writer.hpp"
 #include "output/overlay.hpp"
 #include "output/tiff.hpp"
 #include "pipeline/processor.hpp"
-#include "sources/open_source.hpp"
+#include "register.hpp"
 
 namespace saccade {
 namespace {
@@ -24,10 +25,8 @@ namespace fs = std::filesystem;
 
 /// A frame of `uri` with its saliency and proto-objects.
 Result result_of(const std::string& uri) {
-  const auto source = open_source(uri, {});
   Result result;
-  if (source->read(result.frame, std::chrono::seconds(1)).status != ReadStatus::frame)
-    throw std::runtime_error(uri + " has no frame");
+  result.frame = read_frames(uri, 1).at(0);
   const auto processor = make_processor({});
   processor->process(result);
   return result;
@@ -43,7 +42,7 @@ class Folder {
   const fs::path& path() const { return path_; }
 
  private:
-  fs::path path_ = fs::temp_directory_path() / "saccade_output_bench";
+  fs::path path_ = fs::temp_directory_path() / ("saccade_output_bench_" + std::to_string(::getpid()));
 };
 
 /// Times function(), which returns the bytes of a file, or 0.
@@ -96,13 +95,12 @@ void add_frame(const std::string& name, const std::string& uri) {
   add(name + "/files/default", [=] { return write({"maps", "overlay"}); });
 }
 
-void register_all() {
+}  // namespace
+
+void register_benchmarks() {
   cv::setNumThreads(1);
-  add_frame("synthetic", "synthetic:table?seed=1&noise=kinect&missing=0.2&frames=1");
+  add_frame("synthetic", kBenchTable);
   add_frame("recording", SACCADE_RECORDING);
 }
 
-[[maybe_unused]] const bool registered = (register_all(), true);
-
-}  // namespace
 }  // namespace saccade

@@ -3,54 +3,23 @@
 // the median over the frames of a set, and the largest with the parts of that frame.
 
 #include <algorithm>
-#include <chrono>
-#include <filesystem>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include <benchmark/benchmark.h>
-#include <opencv2/imgcodecs.hpp>
 
 #include "attention/border_ownership.hpp"
 #include "attention/proto.hpp"
+#include "frames.hpp"
 #include "models/model.hpp"
 #include "processor_time.hpp"
+#include "register.hpp"
 #include "settings/settings.hpp"
-#include "sources/synthetic_source.hpp"
 
 namespace saccade {
 namespace {
 
 constexpr int kPoints = 10;
-
-/// A camera that goes around a scene, with a Kinect's noise.
-std::vector<Frame> synthetic(const std::string& scene) {
-  SyntheticSource source("synthetic:" + scene + "?seed=21&noise=kinect&camera=orbit&frames=20");
-  std::vector<Frame> frames(20);
-  for (Frame& frame : frames)  // each with memory of its own
-    if (source.read(frame, std::chrono::milliseconds(0)).status != ReadStatus::frame)
-      throw std::logic_error("the synthetic sequence ended early");
-  return frames;
-}
-
-/// The depth images of a folder, in its order; none if it is not there.
-std::vector<Frame> real(const std::string& folder) {
-  const std::filesystem::path path = std::filesystem::path(SACCADE_SHARED_DIR) / "data" / folder;
-  std::vector<std::string> names;
-  if (std::filesystem::is_directory(path))
-    for (const auto& entry : std::filesystem::directory_iterator(path))
-      if (entry.path().string().ends_with("_depth.png")) names.push_back(entry.path().string());
-  std::sort(names.begin(), names.end());
-  std::vector<Frame> frames;
-  for (const std::string& name : names) {
-    Frame frame;
-    cv::imread(name, cv::IMREAD_UNCHANGED).convertTo(frame.depth_mm, CV_32F);
-    frame.intrinsics = Intrinsics::guess_for(frame.depth_mm.size());
-    frames.push_back(frame);
-  }
-  return frames;
-}
 
 struct Times {
   double all = 0, grid = 0, segments = 0, borders = 0;
@@ -96,19 +65,20 @@ void run(benchmark::State& state, const std::vector<Frame>& frames) {
   state.counters["worst_borders"] = worst.borders;
 }
 
-void register_all() {
+}  // namespace
+
+void register_benchmarks() {
   const auto add = [](const std::string& name, const std::vector<Frame>& frames) {
     if (!frames.empty())
       benchmark::RegisterBenchmark(name.c_str(), [=](benchmark::State& state) { run(state, frames); })
           ->Unit(benchmark::kMillisecond)
           ->Iterations(1);
   };
-  for (const std::string scene : {"table", "room"}) add("synthetic_" + scene, synthetic(scene));
+  for (const std::string scene : {"table", "room"})  // a camera that goes around it
+    add("synthetic_" + scene,
+        read_frames("synthetic:" + scene + "?seed=21&noise=kinect&camera=orbit&frames=20"));
   for (const std::string folder : {"osd_learn", "rooms_avd", "rooms_2d3ds_mod", "kitchen_sequence"})
-    add(folder, real(folder));
+    add(folder, read_frames(shared_data(folder)));
 }
 
-[[maybe_unused]] const bool registered = (register_all(), true);
-
-}  // namespace
 }  // namespace saccade

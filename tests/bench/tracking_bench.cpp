@@ -4,16 +4,16 @@
 #include <algorithm>
 #include <chrono>
 #include <memory>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include <benchmark/benchmark.h>
 
 #include "attention/proto.hpp"
+#include "frames.hpp"
 #include "models/model.hpp"
+#include "register.hpp"
 #include "settings/settings.hpp"
-#include "sources/synthetic_source.hpp"
 #include "tracking/attention_tracker.hpp"
 #include "tracking/frame_follower.hpp"
 
@@ -30,16 +30,6 @@ double median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
-}
-
-/// A second of a camera that goes around a scene, 640x480, with a Kinect's noise.
-std::vector<Frame> sequence(const std::string& scene) {
-  SyntheticSource source("synthetic:" + scene + "?seed=21&noise=kinect&camera=orbit&frames=30");
-  std::vector<Frame> frames(30);
-  for (Frame& frame : frames)
-    if (source.read(frame, std::chrono::milliseconds(0)).status != ReadStatus::frame)
-      throw std::logic_error("the synthetic sequence ended early");
-  return frames;
 }
 
 /// One model whose frames are attended to one by one or over time.
@@ -81,10 +71,11 @@ class Subject {
   std::vector<double> attend_ms_;
 };
 
-// Forwards and backwards, so that the camera never jumps; times go on.
+// A second of a camera that goes around a scene, with a Kinect's noise; forwards and backwards, so that the
+// camera never jumps. Times go on.
 void run(benchmark::State& state, const std::string& scene, int workers) {
   cv::setNumThreads(1);
-  std::vector<Frame> frames = sequence(scene);
+  auto frames = read_frames("synthetic:" + scene + "?seed=21&noise=kinect&camera=orbit&frames=30");
   Subject subject(workers);
   std::vector<double> alone, tracked;
   std::int64_t number = 0;
@@ -103,7 +94,9 @@ void run(benchmark::State& state, const std::string& scene, int workers) {
   state.counters["attend_ms"] = subject.attend_ms();
 }
 
-void register_all() {
+}  // namespace
+
+void register_benchmarks() {
   for (const std::string scene : {"table", "room"})
     for (const int workers : {1, 2})
       benchmark::RegisterBenchmark((scene + "640x480/threads:" + std::to_string(workers)).c_str(),
@@ -113,7 +106,4 @@ void register_all() {
           ->Iterations(120);
 }
 
-[[maybe_unused]] const bool registered = (register_all(), true);
-
-}  // namespace
 }  // namespace saccade

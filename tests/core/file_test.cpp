@@ -1,25 +1,37 @@
 #include "core/file.hpp"
 
 #include <fcntl.h>
-#include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <cerrno>
 #include <csignal>
 #include <filesystem>
 #include <fstream>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
+#include "core/file_writer.hpp"
+#include "tests/support/error_of.hpp"
+#include "tests/support/file_size_limit.hpp"
 #include "tests/support/folder_test.hpp"
+#include "tests/support/system_calls.hpp"
 
 namespace saccade {
 namespace {
 
 namespace fs = std::filesystem;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
 
-class FileTest : public FolderTest {};
+class FileTest : public FolderTest {
+ protected:
+  FileTest() { std::signal(SIGXFSZ, SIG_IGN); }  // as the program does
+};
 
 std::string content(const fs::path& path) {
   const auto bytes = read_file(path);
@@ -35,14 +47,8 @@ TEST_F(FileTest, ReplacesFilesAndLeavesNoTemporaryFile) {
 
 TEST_F(FileTest, FullDiskIsAnErrorThatNamesTheFile) {
   fs::create_symlink("/dev/full", folder_ / "a");
-  try {
-    write_file(folder_ / "a", std::string_view("one"));
-    FAIL();
-  } catch (const Error& error) {
-    EXPECT_EQ(error.status(), ExitStatus::failed);
-    EXPECT_NE(std::string(error.what()).find("No space left"), std::string::npos) << error.what();
-    EXPECT_NE(std::string(error.what()).find((folder_ / "a").string()), std::string::npos);
-  }
+  EXPECT_THAT(error_of(ExitStatus::failed, [&] { write_file(folder_ / "a", std::string_view("one")); }),
+              AllOf(HasSubstr("No space left"), HasSubstr((folder_ / "a").string())));
   LineFile lines(folder_ / "a");
   EXPECT_THROW(lines.append("x"), Error);
 }
@@ -85,33 +91,12 @@ TEST_F(FileTest, PipesAreRefusedWithoutWaiting) {
   ASSERT_EQ(::mkfifo((folder_ / "p").c_str(), 0600), 0);
   EXPECT_THROW(write_file(folder_ / "p", std::string_view("x")), Error);
   EXPECT_THROW(LineFile(folder_ / "p"), Error);
-  try {
-    (void)read_file(folder_ / "p");
-    FAIL();
-  } catch (const Error& error) {
-    EXPECT_THAT(error.what(), ::testing::StartsWith("a pipe, socket or device instead of a file"));
-  }
+  EXPECT_THAT(error_of(ExitStatus::unreadable, [&] { return read_file(folder_ / "p"); }),
+              StartsWith("a pipe, socket or device instead of a file"));
   const int reader = ::open((folder_ / "p").c_str(), O_RDONLY | O_NONBLOCK);
   EXPECT_THROW(LineFile(folder_ / "p"), Error);
   ::close(reader);
 }
-
-// While it lives, files of more than ten bytes are an error, like a full disk.
-class TenBytesAFile {
- public:
-  TenBytesAFile() {
-    std::signal(SIGXFSZ, SIG_IGN);
-    EXPECT_EQ(::getrlimit(RLIMIT_FSIZE, &before_), 0);
-    const rlimit small{10, before_.rlim_max};
-    EXPECT_EQ(::setrlimit(RLIMIT_FSIZE, &small), 0);
-  }
-  ~TenBytesAFile() { ::setrlimit(RLIMIT_FSIZE, &before_); }
-  TenBytesAFile(const TenBytesAFile&) = delete;
-  TenBytesAFile& operator=(const TenBytesAFile&) = delete;
-
- private:
-  rlimit before_{};
-};
 
 TEST_F(FileTest, ALineThatDoesNotFitLeavesNoPartOfItself) {
   LineFile(folder_ / "kept").append("one");
@@ -120,7 +105,7 @@ TEST_F(FileTest, ALineThatDoesNotFitLeavesNoPartOfItself) {
     LineFile lines(path, existing);
     if (existing == LineFile::Existing::replace) lines.append("one");
     {
-      const TenBytesAFile limit;
+      const FileSizeLimit limit(10);
       EXPECT_THROW(lines.append("a line of more than ten bytes"), Error);
     }
     EXPECT_EQ(content(path), "one\n");
@@ -132,11 +117,36 @@ TEST_F(FileTest, ALineThatDoesNotFitLeavesNoPartOfItself) {
 TEST_F(FileTest, AFileThatDoesNotFitLeavesTheOneBeforeAndNothingBeside) {
   write_file(folder_ / "a", std::string_view("before"));
   {
-    const TenBytesAFile limit;
+    const FileSizeLimit limit(10);
     EXPECT_THROW(write_file(folder_ / "a", std::string_view("more than ten bytes")), Error);
   }
   EXPECT_EQ(content(folder_ / "a"), "before");
   EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()), 1);
+}
+
+TEST_F(FileTest, AFileThatCannotGetItsNameLeavesNothingBeside) {
+  FileWriter file(folder_ / "a");
+  file.write("text");
+  fs::create_directory(folder_ / "a");  // meanwhile
+  EXPECT_THROW(file.finish(), Error);
+  EXPECT_TRUE(fs::is_directory(folder_ / "a"));
+  EXPECT_FALSE(fs::exists(folder_ / "a.part"));
+}
+
+// As network file systems do, and signals.
+TEST_F(FileTest, WritesThatAreInterruptedOrTakeAPartGoOn) {
+  SystemCalls calls;
+  int count = 0;
+  calls.write = [&](int file, const void* bytes, std::size_t size) -> ssize_t {
+    if (++count % 2 == 0) return SystemCalls::real_write(file, bytes, std::min<std::size_t>(size, 3));
+    errno = EINTR;
+    return -1;
+  };
+  write_file(folder_ / "a", std::string_view("one two three"));
+  LineFile(folder_ / "l").append("four five");
+  EXPECT_EQ(count, 2 * (5 + 4)) << "every call stood in";
+  EXPECT_EQ(content(folder_ / "a"), "one two three");
+  EXPECT_EQ(content(folder_ / "l"), "four five\n");
 }
 
 TEST_F(FileTest, AFileThatIsDeletedMeanwhileIsAnError) {

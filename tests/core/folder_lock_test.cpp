@@ -14,6 +14,7 @@
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "tests/support/folder_test.hpp"
+#include "tests/support/system_calls.hpp"
 
 namespace saccade {
 namespace {
@@ -21,6 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::MatchesRegex;
 
 class FolderLockTest : public FolderTest {
  protected:
@@ -55,6 +57,34 @@ TEST_F(FolderLockTest, AKilledOwnerLeavesNoLock) {
   EXPECT_EQ(complaint(), "");
 }
 
+TEST_F(FolderLockTest, TheFileNamesItsOwnerAndNothingElse) {
+  write_file(folder_ / ".saccade.lock", std::string(1000, 'x'));  // of one that was killed
+  const FolderLock lock(folder_, "the owner");
+  const auto bytes = read_file(folder_ / ".saccade.lock");
+  EXPECT_THAT(std::string(bytes.begin(), bytes.end()),
+              MatchesRegex("the owner, process " + std::to_string(::getpid()) + " on [^\n]+\n"));
+}
+
+// The lock of a file that is no longer there keeps nobody out.
+TEST_F(FolderLockTest, IfTheOwnerBeforeLeavesInTheMiddleTheFileIsMadeAgain) {
+  std::optional<FolderLock> first(std::in_place, folder_, "the first");
+  SystemCalls calls;
+  calls.before_flock = [&] { first.reset(); };  // the second one has opened the file of the first
+  const FolderLock second(folder_, "the second");
+  EXPECT_FALSE(first);
+  EXPECT_THAT(lock_owner(folder_), HasSubstr("the second"));
+}
+
+// Else it could be the file of the next owner.
+TEST_F(FolderLockTest, WhenTheFileIsRemovedItIsStillLocked) {
+  std::optional<FolderLock> lock(std::in_place, folder_, "the owner");
+  SystemCalls calls;
+  std::string owner;
+  calls.before_unlink = [&] { owner = lock_owner(folder_); };
+  lock.reset();
+  EXPECT_THAT(owner, HasSubstr("the owner"));
+}
+
 // An owner may remove the file between the moments when another one opens and locks it.
 TEST_F(FolderLockTest, OwnersThatComeAndGoAreNeverTwoAtOnce) {
   constexpr int kTurns = 400;
@@ -83,6 +113,12 @@ TEST_F(FolderLockTest, ASymbolicLinkIsNotFollowed) {
   fs::create_symlink(folder_ / "other", folder_ / "out/.saccade.lock");
   EXPECT_THROW(FolderLock(folder_ / "out", "x"), Error);
   EXPECT_EQ(read_file(folder_ / "other").size(), 8U);
+  fs::remove(folder_ / "other");
+  fs::create_directories(folder_ / "another");
+  fs::remove(folder_ / "out/.saccade.lock");
+  fs::create_symlink(folder_ / "another/.saccade.lock", folder_ / "out/.saccade.lock");
+  const FolderLock lock(folder_ / "another", "x");
+  EXPECT_EQ(lock_owner(folder_ / "out"), "") << "that is the other folder's";
 }
 
 TEST_F(FolderLockTest, AFolderThatIsNotThereIsAnError) {

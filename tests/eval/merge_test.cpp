@@ -7,6 +7,7 @@
 #include "core/file.hpp"
 #include "core/folder_lock.hpp"
 #include "samples.hpp"
+#include "tests/support/error_of.hpp"
 #include "tests/support/folder_test.hpp"
 
 namespace saccade {
@@ -32,15 +33,8 @@ class MergeTest : public FolderTest {
     return folder;
   }
 
-  static std::string error_of(const std::vector<fs::path>& folders) {
-    try {
-      (void)find_shards(folders, false);
-    } catch (const Error& error) {
-      EXPECT_EQ(error.status(), ExitStatus::usage) << error.what();
-      return error.what();
-    }
-    ADD_FAILURE() << "no error came";
-    return "";
+  static std::string complaint(const std::vector<fs::path>& folders) {
+    return error_of(ExitStatus::usage, [&] { return find_shards(folders, false); });
   }
 };
 
@@ -63,7 +57,7 @@ TEST_F(MergeTest, MergedShardsAreTheWhole) {
 TEST_F(MergeTest, EveryShardThatIsMissingOrNotCompleteIsNamed) {
   const auto one = put_shard(1, 9), four = put_shard(4, 9), five = put_shard(5, 9, false);
   const std::string lack = "of 9 shards, shards 2, 3, 6-9 are missing and shard 5 is not complete";
-  EXPECT_THAT(error_of({one, four, five}), HasSubstr(lack));
+  EXPECT_THAT(complaint({one, four, five}), HasSubstr(lack));
   const ShardedResults partial = find_shards({one, four, five}, true);
   EXPECT_FALSE(partial.complete);
   EXPECT_EQ(partial.plan.missing, lack + "; 1 of 3 images");
@@ -72,16 +66,16 @@ TEST_F(MergeTest, EveryShardThatIsMissingOrNotCompleteIsNamed) {
 
 TEST_F(MergeTest, ShardsOfDifferentEvaluationsAreRefused) {
   const auto one = put_shard(1, 3), two = put_shard(2, 3);
-  EXPECT_THAT(error_of({one, two, one}), HasSubstr("1/3 is given twice"));
+  EXPECT_THAT(complaint({one, two, one}), HasSubstr("1/3 is given twice"));
   EvalPlan other = sample_plan();
   other.settings.last_level = 3;
-  EXPECT_THAT(error_of({one, put_shard(2, 3, true, other)}), HasSubstr("levels is \"0..4\", not \"0..3\""));
+  EXPECT_THAT(complaint({one, put_shard(2, 3, true, other)}), HasSubstr("levels is \"0..4\", not \"0..3\""));
   put_shard(2, 3);
   other = sample_plan();
   other.dataset = "the same/elsewhere";
   EXPECT_TRUE(find_shards({one, two, put_shard(3, 3, true, other)}, false).complete);
   other.content = "0123456789abcdef";
-  EXPECT_THAT(error_of({one, two, put_shard(3, 3, true, other)}),
+  EXPECT_THAT(complaint({one, two, put_shard(3, 3, true, other)}),
               HasSubstr("the images of the data sets \"some/folder\" and \"the same/elsewhere\" differ"));
 }
 

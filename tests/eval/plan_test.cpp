@@ -8,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "samples.hpp"
+#include "tests/support/error_of.hpp"
 #include "tests/support/other_value.hpp"
 
 namespace saccade {
@@ -17,15 +18,8 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
 template <typename Action>
-std::string usage_error_of(Action action) {
-  try {
-    action();
-  } catch (const Error& error) {
-    EXPECT_EQ(error.status(), ExitStatus::usage);
-    return error.what();
-  }
-  ADD_FAILURE() << "no error came";
-  return "";
+std::string usage_error_of(const Action& action) {
+  return error_of(ExitStatus::usage, action);
 }
 
 TEST(EvalPlan, ConditionsAreAllCombinations) {
@@ -75,6 +69,17 @@ TEST(EvalPlan, FramesAreThoseOfStartAndEvery) {
   plan.settings.every = 3;
   EXPECT_EQ(plan.frame_at(0), 4);
   EXPECT_EQ(plan.frame_at(5), 19);
+  plan.positions = 6;
+  for (int frame = 0; frame < 25; ++frame) {
+    const bool is_one = frame >= 4 && frame <= 19 && (frame - 4) % 3 == 0;
+    EXPECT_EQ(plan.position_of(frame), is_one ? std::optional<std::int64_t>((frame - 4) / 3) : std::nullopt)
+        << frame;
+  }
+  plan.shards = 4;
+  plan.shard = 2;  // of the positions 0..5: 1 and 5
+  EXPECT_EQ(plan.position_of(7), 1);
+  EXPECT_EQ(plan.position_of(19), 5);
+  EXPECT_FALSE(plan.position_of(4) || plan.position_of(10) || plan.position_of(16));
 }
 
 TEST(EvalPlan, ComesBackFromJson) {

@@ -7,8 +7,10 @@
 
 #include "core/error.hpp"
 #include "core/file.hpp"
+#include "eval/evaluator.hpp"
 #include "eval/hit_ratio.hpp"
 #include "samples.hpp"
+#include "tests/support/error_of.hpp"
 #include "tests/support/folder_test.hpp"
 
 namespace saccade {
@@ -23,18 +25,6 @@ class ResultFileTest : public FolderTest {
   std::string text() const {
     const auto bytes = read_file(folder_ / kResultFile);
     return {bytes.begin(), bytes.end()};
-  }
-
-  template <typename Action>
-  static std::string error_of(ExitStatus status, Action action) {
-    try {
-      action();
-    } catch (const Error& error) {
-      EXPECT_EQ(error.status(), status) << error.what();
-      return error.what();
-    }
-    ADD_FAILURE() << "no error came";
-    return "";
   }
 };
 
@@ -60,6 +50,19 @@ TEST_F(ResultFileTest, ImagesComeInTheOrderOfTheirFrames) {
   const auto again = read_all({file});
   ASSERT_EQ(again.size(), 3U);
   for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(image_line(again[i]), image_line(images[i]));
+}
+
+// Each time that they begin again costs memory when they are merged.
+TEST_F(ResultFileTest, FramesInAnyOrderAreAnError) {
+  constexpr int kMostRuns = 10'000;
+  std::string lines = plan_line(sample_plan()) + "\n";
+  for (int i = 0; i < kMostRuns; ++i)
+    lines += "{\"frame\":" + std::to_string(kMostRuns - i) + ",\"name\":\"\",\"left_out\":\"\"}\n";
+  put(lines);
+  EXPECT_EQ(scan_results(folder_).runs.size(), std::size_t{kMostRuns});
+  put(lines + "{\"frame\":0,\"name\":\"\",\"left_out\":\"\"}\n");
+  EXPECT_THAT(error_of(ExitStatus::unreadable, [&] { return scan_results(folder_); }),
+              HasSubstr("the frames are not in order"));
 }
 
 TEST_F(ResultFileTest, AnEndThatIsNotOneIsAnError) {
@@ -149,6 +152,7 @@ TEST_F(ResultFileTest, DamagedFilesAreNamedWithTheLine) {
 
 TEST_F(ResultFileTest, EveryNumberHasARange) {
   const std::string plan = plan_line(sample_plan()), image = image_line(sample_images()[0]);
+  std::string many;
   const auto expect_refused = [&](std::string text, const std::string& from, const std::string& to,
                                   int line) {
     const auto at = text.find(from);
@@ -168,6 +172,10 @@ TEST_F(ResultFileTest, EveryNumberHasARange) {
     expect_refused(image, "[1,2,4]", std::string("[1,") + bad + ",4]", 2);
   }
   expect_refused(image, "[1,2,4]", "[1,2,-2]", 2);
+  for (const char* bad : {"-0.1", "1.1", "null"})
+    expect_refused(image, "[1,2,4]", std::string("[1,2,4,") + bad + "]", 2);
+  for (int i = 0; i < 3 * kVoidReserve; ++i) many += "[1,2,0],";  // of 3 points
+  expect_refused(image, "[1,2,4]", many + "[1,2,4]", 2);
   expect_refused(image, "\"map_ms\":10", "\"map_ms\":1e300", 2);
   for (const char* bad : {"-1", "1e300", "0.5", "1000000000000000000", "null"})
     for (const char* key : {"\"frames\":3", "\"points\":3", "\"shard\":1", "\"shards\":1"}) {

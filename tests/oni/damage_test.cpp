@@ -8,6 +8,7 @@
 #include "oni/repair.hpp"
 #include "oni/walker.hpp"
 #include "oni_fixtures.hpp"
+#include "tests/support/error_of.hpp"
 
 namespace saccade {
 namespace {
@@ -229,14 +230,8 @@ TEST_F(DamageTest, ARepairThatSavesNothingIsAnErrorAndKeepsWhatWasThere) {
       for (std::size_t i = 0; i < 8; ++i) damaged[frame.payload_position + i] = 0xFF;
   write_bytes(path("d.oni"), damaged);
   write_bytes(path("before.oni"), Bytes{1, 2, 3});
-  for (const char* to : {"new.oni", "before.oni"}) {
-    try {
-      repair_recording(path("d.oni"), path(to), true);
-      ADD_FAILURE() << "no error came";
-    } catch (const Error& error) {
-      EXPECT_EQ(error.status(), ExitStatus::unreadable) << error.what();
-    }
-  }
+  for (const char* to : {"new.oni", "before.oni"})
+    error_of(ExitStatus::unreadable, [&] { repair_recording(path("d.oni"), path(to), true); });
   EXPECT_FALSE(std::filesystem::exists(path("new.oni")));
   EXPECT_EQ(read_bytes(path("before.oni")), (Bytes{1, 2, 3}));
   EXPECT_FALSE(std::filesystem::exists(path("before.oni.part")));
@@ -253,6 +248,39 @@ TEST_F(DamageTest, RepairOmitsBadFrames) {
   EXPECT_EQ(report.bad_frames, 1u);
   EXPECT_EQ(frames_of(path("repaired.oni")), (std::vector<int>{0, 1, 3}));
   EXPECT_TRUE(sound(path("repaired.oni")));
+}
+
+// A stock player reads beyond the frame if its crop is not within the image.
+TEST_F(DamageTest, RepairSwitchesOffACropThatCannotBe) {
+  for (const bool possible : {true, false}) {
+    OniRecordWriter writer(path("crop.oni"), true);
+    add_test_stream(writer, 1, {.width = 4, .height = 3});
+    ByteBuilder crop;
+    crop.put(std::uint32_t{1});
+    for (const int v : {1, 1, 2, possible ? 2 : 3}) crop.put(static_cast<std::uint16_t>(v));
+    writer.add_property(1, OniRecordType::general_property, oni_property::kCropping, crop.bytes());
+    writer.begin();
+    ASSERT_TRUE(writer.write_frame(1, 0, Bytes(std::size_t{2} * (possible ? 2 * 2 : 4 * 3), 1)));
+    writer.close();
+    EXPECT_EQ(repair_recording(path("crop.oni"), path("repaired.oni"), true).frames, 1u);
+    const Recording repaired(path("repaired.oni"));
+    const auto kept = cropping_at(*main_depth(repaired), repaired.index().file_size);
+    EXPECT_EQ(kept, possible ? std::optional(cv::Rect(1, 1, 2, 2)) : std::nullopt);
+  }
+}
+
+// What is appended to a recording again and again must not be copied for ever.
+TEST_F(DamageTest, RepairCopiesABoundedAmountOfProperties) {
+  OniRecordWriter writer(path("many.oni"), true);
+  add_test_stream(writer, 1, {.width = 4, .height = 3});
+  for (int i = 0; i < 200; ++i)
+    writer.add_property(1, OniRecordType::general_property, "of others", Bytes(100'000, 7));
+  writer.begin();
+  ASSERT_TRUE(writer.write_frame(1, 0, Bytes(24, 1)));
+  writer.close();
+  ASSERT_GT(std::filesystem::file_size(path("many.oni")), 20'000'000U);
+  EXPECT_EQ(repair_recording(path("many.oni"), path("repaired.oni"), true).frames, 1u);
+  EXPECT_LT(std::filesystem::file_size(path("repaired.oni")), 17'000'000U);
 }
 
 TEST_F(DamageTest, FramesOfAnUnknownNodeAndNodesAddedTwiceAreReported) {

@@ -1,25 +1,33 @@
 // The order in which bytes reach the disk (README 9). This program replaces the system calls that write. They
 // write and keep a log, from which the tests build every state that a kill or a power failure may leave.
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <sys/syscall.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <cerrno>
 #include <condition_variable>
+#include <cstdint>
 #include <mutex>
+#include <optional>
 #include <random>
+#include <thread>
 
 #include <gtest/gtest.h>
 
+#include "core/error.hpp"
 #include "oni/check.hpp"
 #include "oni/recorder.hpp"
 #include "oni/recording.hpp"
 #include "oni/repair.hpp"
 #include "oni_fixtures.hpp"
+#include "tests/support/error_of.hpp"
 
 namespace {
 
 struct Operation {
-  enum class Kind { write, cut, sync, frame };
+  enum class Kind { write, cut, sync, frame, rename };
   Kind kind;
   std::uint64_t position = 0;       // of a write; the new size of a cut; the number of a frame
   std::vector<std::uint8_t> bytes;  // of a write
@@ -33,6 +41,8 @@ struct Disk {
   bool held = false;  // syncs wait
   int waiting = 0;    // syncs that do
   int folder_syncs = 0;
+  std::size_t largest_write = SIZE_MAX;  // bytes of a call
+  int writes_until_full = -1;            // the call after them fails once, as on a full disk
   void add(Operation operation) {
     const std::lock_guard lock(mutex);
     log.push_back(std::move(operation));
@@ -48,6 +58,14 @@ Disk& disk() {
 
 extern "C" ssize_t pwrite(int file, const void* bytes, size_t count, off_t position) {
   const auto* begin = static_cast<const std::uint8_t*>(bytes);
+  {
+    const std::lock_guard lock(disk().mutex);
+    if (disk().writes_until_full-- == 0) {
+      errno = ENOSPC;
+      return -1;
+    }
+    count = std::min(count, disk().largest_write);
+  }
   const ssize_t written = ::syscall(SYS_pwrite64, file, bytes, count, position);
   if (written > 0)
     disk().add({Operation::Kind::write, static_cast<std::uint64_t>(position), {begin, begin + written}});
@@ -57,6 +75,11 @@ extern "C" ssize_t pwrite(int file, const void* bytes, size_t count, off_t posit
 extern "C" int ftruncate(int file, off_t size) noexcept {
   disk().add({Operation::Kind::cut, static_cast<std::uint64_t>(size), {}});
   return static_cast<int>(::syscall(SYS_ftruncate, file, size));
+}
+
+extern "C" int rename(const char* from, const char* to) noexcept {
+  disk().add({Operation::Kind::rename, 0, {}});
+  return static_cast<int>(::syscall(SYS_renameat2, AT_FDCWD, from, AT_FDCWD, to, 0));
 }
 
 extern "C" int fdatasync(int file) {
@@ -221,31 +244,130 @@ TEST_F(WriteOrder, TheNameOfTheFileIsOnTheDiskWithItsFirstFrame) {
   }
 }
 
-TEST_F(WriteOrder, ASlowDiskSyncsWaitingFramesTogetherAndNoneIsDropped) {
-  disk().log.clear();
-  OniWriter writer(path("slow.oni"), {});
-  OniRecorder recorder(writer, 30);
-  {
-    const std::lock_guard lock(disk().mutex);
-    disk().held = true;
-  }
-  for (int k = 0; k < 2; ++k) ASSERT_TRUE(recorder.offer(test_frame(k, kSize, true)));
-  {
+// Else a power failure could leave the new name of an empty file in place of a recording.
+TEST_F(WriteOrder, AFileIsOnTheDiskBeforeItReplacesAnother) {
+  record();
+  const Log log = record();
+  const auto rename = std::ranges::find(log, Kind::rename, &Operation::kind);
+  ASSERT_NE(rename, log.end());
+  ASSERT_NE(rename, log.begin());
+  EXPECT_EQ(std::prev(rename)->kind, Kind::sync);
+}
+
+TEST_F(WriteOrder, WritesThatTakeAPartGoOn) {
+  record();
+  const Bytes whole = read_bytes(path("log.oni"));
+  disk().largest_write = 7;
+  record();
+  disk().largest_write = SIZE_MAX;
+  EXPECT_EQ(read_bytes(path("log.oni")), whole);
+}
+
+// The blocks are reserved, but some file systems promise more than they have.
+TEST_F(WriteOrder, AWriteThatFailsInTheMiddleLeavesTheFramesBefore) {
+  OniWriter writer(path("full.oni"), {.depth_codec = OniDepthCodec::none});
+  const cv::Size large(160, 120);  // one frame is longer than all that closing appends
+  writer.write(test_frame(0, large, false));
+  disk().largest_write = 30'000;
+  disk().writes_until_full = 1;
+  const std::string error = error_of(ExitStatus::failed, [&] { writer.write(test_frame(1, large, false)); });
+  EXPECT_TRUE(error.starts_with("disk full")) << error;
+  disk().largest_write = SIZE_MAX;
+  Recording recording(path("full.oni"));
+  EXPECT_TRUE(is_sound(check_recording(recording)));
+  EXPECT_EQ(main_depth(recording)->frames.size(), 1u);
+  EXPECT_LT(std::filesystem::file_size(path("full.oni")), 2 * large.area() + 10'000);
+}
+
+TEST_F(WriteOrder, AClosedFileKeepsNoBlocksThatItDoesNotUse) {
+  record();
+  struct stat status {};
+  ASSERT_EQ(::stat(path("log.oni").c_str(), &status), 0);
+  EXPECT_LT(status.st_blocks * 512, status.st_size + (1 << 20));
+}
+
+// A recorder whose disk holds its first sync, so that what is offered then waits in the queue.
+class HeldRecorder : public WriteOrder {
+ protected:
+  void begin(std::size_t capacity) {
+    writer_.emplace(path("held.oni"), OniWriterOptions{.colour_codec = OniColourCodec::none});
+    recorder_.emplace(*writer_, capacity);
+    hold(true);
+    ASSERT_TRUE(recorder_->offer(test_frame(0, kSize, true)));
     std::unique_lock lock(disk().mutex);
     ASSERT_TRUE(disk().changed.wait_for(lock, std::chrono::minutes(1), [] { return disk().waiting == 1; }));
   }
-  for (int k = 2; k < 12; ++k) ASSERT_TRUE(recorder.offer(test_frame(k, kSize, true)));
-  {
+  static void hold(bool held) {
     const std::lock_guard lock(disk().mutex);
-    disk().held = false;
+    disk().held = held;
     disk().changed.notify_all();
   }
-  recorder.finish();
-  EXPECT_EQ(recorder.counts().frames, 12u);
-  EXPECT_EQ(recorder.counts().dropped, 0u);
-  EXPECT_GT(recorder.counts().most_unsynced, 1u) << "the count of unsynced frames is reported";
-  EXPECT_EQ(recorder.counts().unsynced, 0u);
-  Recording recording(path("slow.oni"));
+
+  std::optional<OniWriter> writer_;
+  std::optional<OniRecorder> recorder_;
+};
+
+TEST_F(HeldRecorder, QueuedFramesAreCopies) {
+  begin(30);
+  Frame frame = test_frame(1, kSize, true);
+  ASSERT_TRUE(recorder_->offer(frame));
+  frame.depth_mm.setTo(7);  // the source reads the next one into the same memory
+  frame.colour.setTo(cv::Scalar::all(7));
+  hold(false);
+  recorder_->finish();
+  Recording recording(path("held.oni"));
+  cv::Mat1f depth;
+  cv::Mat3b colour;
+  ASSERT_TRUE(recording.read_depth(*main_depth(recording), 1, depth));
+  ASSERT_TRUE(recording.read_colour(*main_colour(recording), 1, colour));
+  EXPECT_TRUE(equal(depth, test_frame(1, kSize, true).depth_mm));
+  EXPECT_TRUE(equal(colour, test_frame(1, kSize, true).colour));
+}
+
+TEST_F(HeldRecorder, DropsAreNotedWhereTheyHappened) {
+  begin(1);
+  ASSERT_TRUE(recorder_->offer(test_frame(1, kSize, true)));
+  ASSERT_FALSE(recorder_->offer(test_frame(2, kSize, true)));
+  hold(false);
+  recorder_->finish();
+  const Recording recording(path("held.oni"));
+  const OniNode& node = *main_depth(recording);
+  EXPECT_EQ(node.int_property(oni_property::kDropped, node.frames[0].payload_position), std::nullopt);
+  EXPECT_EQ(node.int_property(oni_property::kDropped, node.frames[1].payload_position), 1u);
+}
+
+// After an error elsewhere. The disk is let go when the recorder is being destroyed: at the latest at the
+// third try.
+TEST_F(HeldRecorder, WithoutFinishQueuedFramesAreLostAndTheFileIsClosed) {
+  std::size_t frames = 0;
+  for (const int wait_ms : {50, 1000, 20'000}) {
+    std::filesystem::remove(path("held.oni"));
+    begin(30);
+    for (int k = 1; k < 12; ++k) ASSERT_TRUE(recorder_->offer(test_frame(k, kSize, true)));
+    std::jthread later([wait_ms] {
+      std::this_thread::sleep_for(std::chrono::milliseconds(wait_ms));
+      hold(false);
+    });
+    recorder_.reset();
+    writer_.reset();
+    Recording recording(path("held.oni"));
+    EXPECT_TRUE(is_sound(check_recording(recording)));
+    frames = main_depth(recording)->frames.size();
+    if (frames == 1) break;
+  }
+  EXPECT_EQ(frames, 1u);
+}
+
+TEST_F(HeldRecorder, ASlowDiskSyncsWaitingFramesTogetherAndNoneIsDropped) {
+  begin(30);
+  for (int k = 1; k < 12; ++k) ASSERT_TRUE(recorder_->offer(test_frame(k, kSize, true)));
+  hold(false);
+  recorder_->finish();
+  EXPECT_EQ(recorder_->counts().frames, 12u);
+  EXPECT_EQ(recorder_->counts().dropped, 0u);
+  EXPECT_GT(recorder_->counts().most_unsynced, 1u) << "the count of unsynced frames is reported";
+  EXPECT_EQ(recorder_->counts().unsynced, 0u);
+  Recording recording(path("held.oni"));
   EXPECT_TRUE(is_sound(check_recording(recording)));
 }
 

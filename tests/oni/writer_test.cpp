@@ -1,7 +1,5 @@
 #include "oni/writer.hpp"
 
-#include <sys/resource.h>
-
 #include <gmock/gmock.h>
 
 #include "core/error.hpp"
@@ -9,6 +7,7 @@
 #include "oni/recorder.hpp"
 #include "oni/recording.hpp"
 #include "oni_fixtures.hpp"
+#include "tests/support/file_size_limit.hpp"
 #include "tests/support/outcome.hpp"
 
 namespace saccade {
@@ -63,6 +62,14 @@ TEST_F(OniWriterTest, AFileThatIsReplacedStaysUntilTheFirstFrame) {
   EXPECT_FALSE(std::filesystem::exists(path("a.oni.part")));
 }
 
+TEST_F(OniWriterTest, WhatAKilledProcessLeftBesideIsReplaced) {
+  record_test_frames(path("a.oni"), 1, kSize, false);
+  write_bytes(path("a.oni.part"), std::vector<std::uint8_t>{1, 2, 3});
+  record_test_frames(path("a.oni"), 2, kSize, false, {.overwrite = true});
+  EXPECT_EQ(main_depth(Recording(path("a.oni")))->frames.size(), 2u);
+  EXPECT_FALSE(std::filesystem::exists(path("a.oni.part")));
+}
+
 TEST_F(OniWriterTest, AFileThatIsDeletedMeanwhileIsAnError) {
   OniWriter writer(path("a.oni"), {});
   writer.write(test_frame(0, kSize, false));
@@ -84,6 +91,23 @@ TEST_F(OniWriterTest, EveryDepthUpTo65534IsKept) {
   ASSERT_TRUE(succeeded(recording.read_depth(*main_depth(recording), 0, depth)));
   frame.depth_mm(255, 255) = 0;
   EXPECT_TRUE(equal(depth, frame.depth_mm));
+}
+
+// 65534.5 mm and more would be rounded to 65535.
+TEST_F(OniWriterTest, DepthThatWouldBecomeTheValueOfNoReadingIsOutOfRange) {
+  Frame frame = test_frame(0, kSize, false);
+  frame.depth_mm.setTo(1000.0f);
+  frame.depth_mm(0, 0) = 65534.49f;
+  frame.depth_mm(0, 1) = 65534.5f;
+  OniWriter writer(path("far.oni"), {});
+  writer.write(frame);
+  writer.close();
+  EXPECT_EQ(writer.counts().out_of_range_pixels, 1u);
+  Recording recording(path("far.oni"));
+  cv::Mat1f depth;
+  ASSERT_TRUE(succeeded(recording.read_depth(*main_depth(recording), 0, depth)));
+  EXPECT_EQ(depth(0, 0), 65534.0f);
+  EXPECT_EQ(depth(0, 1), 0.0f);
 }
 
 TEST_F(OniWriterTest, TenthsOfAMillimetreAreKept) {
@@ -213,26 +237,10 @@ TEST_F(OniWriterTest, AnotherSizeIsRefused) {
   expect_sound(path("s.oni"));
 }
 
-// The process's limit on file size acts like a full disk.
-class SizeLimit {
- public:
-  explicit SizeLimit(rlim_t bytes) {
-    ::getrlimit(RLIMIT_FSIZE, &before_);
-    const rlimit limit{bytes, before_.rlim_max};
-    ::setrlimit(RLIMIT_FSIZE, &limit);
-  }
-  ~SizeLimit() { ::setrlimit(RLIMIT_FSIZE, &before_); }
-  SizeLimit(const SizeLimit&) = delete;
-  SizeLimit& operator=(const SizeLimit&) = delete;
-
- private:
-  rlimit before_{};
-};
-
 TEST_F(OniWriterTest, OnAFullDiskTheFileIsClosedWithAllFramesBefore) {
   for (const rlim_t most_bytes : {20'000U, 400'000U}) {  // the table of many frames needs room, too
     SCOPED_TRACE(most_bytes);
-    const SizeLimit limit(most_bytes);
+    const FileSizeLimit limit(most_bytes);
     OniWriter writer(path("full.oni"), {.depth_codec = OniDepthCodec::none, .overwrite = true});
     std::string error;
     std::size_t written = 0;

@@ -1,9 +1,12 @@
 #include "pipeline/pipeline.hpp"
 
+#include <atomic>
 #include <chrono>
+#include <functional>
 #include <set>
 #include <stdexcept>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "pipeline_parts.hpp"
@@ -136,6 +139,94 @@ TEST(Pipeline, ErrorsOfEitherThreadComeAfterTheResultsBeforeThem) {
     }
     expect_balanced(pipeline.ledger());
   }
+}
+
+// Gives one frame, then waits until it is interrupted, and fails.
+class FailsWhenInterrupted : public CountingSource {
+ public:
+  FailsWhenInterrupted() : CountingSource(1) {}
+  ReadResult read(Frame& frame, milliseconds timeout) override {
+    const ReadResult result = CountingSource::read(frame, timeout);
+    if (result.status == ReadStatus::frame) return result;
+    interrupted_.wait(false);
+    throw failed("interrupted", "the device", "");
+  }
+  void interrupt() noexcept override {
+    interrupted_ = true;
+    interrupted_.notify_all();
+  }
+
+ private:
+  std::atomic<bool> interrupted_ = false;
+};
+
+TEST(Pipeline, OfSeveralErrorsTheFirstIsReported) {
+  Pipeline pipeline(std::make_unique<FailsWhenInterrupted>(),
+                    std::make_unique<CopyProcessor>(milliseconds(0), 0), {});
+  try {
+    while (pipeline.next()) {
+    }
+    ADD_FAILURE() << "no error was thrown";
+  } catch (const Error& error) {
+    EXPECT_EQ(std::string(error.what()), "processor failed: here (nothing)");
+  }
+}
+
+// More than there are slots, none of which may be lost.
+TEST(Pipeline, FramesThatTheModelCannotUseAreRejectedAndTheRestGoesOn) {
+  class Refuses : public CopyProcessor {
+   public:
+    void process(Result& result) override {
+      if (result.frame.index % 10 != 0) throw unreadable("no colour", "", "");
+      CopyProcessor::process(result);
+    }
+  };
+  PipelineOptions options;
+  std::vector<std::int64_t> rejected;
+  options.on_rejected = [&](std::int64_t index, const std::string& reason) {
+    EXPECT_EQ(reason, "no colour");
+    rejected.push_back(index);
+  };
+  Pipeline pipeline(std::make_unique<CountingSource>(31), std::make_unique<Refuses>(), options);
+  EXPECT_EQ(indices(pipeline), (std::vector<std::int64_t>{0, 10, 20, 30}));
+  EXPECT_EQ(pipeline.ledger(), (Ledger{31, 4, 0, 27}));
+  EXPECT_EQ(rejected.size(), 27U);
+}
+
+TEST(Pipeline, LatencyCountsFromTheCapture) {
+  Pipeline pipeline(std::make_unique<CountingSource>(1), std::make_unique<CopyProcessor>(milliseconds(20)),
+                    {});
+  ASSERT_TRUE(pipeline.next());
+  EXPECT_GE(pipeline.latency().max_ms(), 20);
+  EXPECT_LT(pipeline.latency().max_ms(), 60'000) << "the clock itself began earlier";
+}
+
+// Is changed by somebody else after it was read once.
+class CounterThatMoves {
+ public:
+  static inline std::function<void()> then;
+
+  void fetch_add(std::int64_t by) { value_ += by; }
+  operator std::int64_t() const {
+    const std::int64_t value = value_;
+    if (then) std::exchange(then, nullptr)();
+    return value;
+  }
+
+ private:
+  std::int64_t value_ = 0;
+};
+
+TEST(LedgerCounters, ALedgerIsOfOneMomentWhateverIsCountedMeanwhile) {
+  LedgerCountersOf<CounterThatMoves> counters;
+  counters.count(counters.captured);
+  CounterThatMoves::then = [&] {  // one more frame, from beginning to end
+    counters.count(counters.captured);
+    counters.count(counters.processed);
+  };
+  const Ledger ledger = counters.snapshot();
+  EXPECT_EQ(ledger.in_flight(), 1);
+  EXPECT_EQ(ledger.captured, 2);
 }
 
 TEST(Pipeline, StopAtAnyMomentEndsWithABalancedLedger) {

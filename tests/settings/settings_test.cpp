@@ -10,6 +10,8 @@
 
 #include "core/error.hpp"
 #include "core/file.hpp"
+#include "settings/settings_format.hpp"
+#include "tests/support/folder_test.hpp"
 #include "tests/support/other_value.hpp"
 #include "tests/support/places.hpp"
 
@@ -28,13 +30,15 @@ std::string error_of(const std::function<void()>& call, ExitStatus expected = Ex
   return "";
 }
 
-std::string load(Settings& settings, const std::string& toml) {
-  const auto path =
-      std::filesystem::path(::testing::TempDir()) /
-      (std::string("saccade_") + ::testing::UnitTest::GetInstance()->current_test_info()->name() + ".toml");
-  write_file(path, toml);
-  return error_of([&] { load_settings(settings, path.string()); });
-}
+class SettingsFile : public FolderTest {
+ protected:
+  std::string load(Settings& settings, const std::string& toml,
+                   ExitStatus expected = ExitStatus::usage) const {
+    const std::filesystem::path path = folder_ / "a.toml";
+    write_file(path, toml);
+    return error_of([&] { load_settings(settings, path.string()); }, expected);
+  }
+};
 
 TEST(Settings, PrintAndParseAreInverse) {
   Settings changed;
@@ -93,6 +97,14 @@ TEST(Settings, KernelIsChecked) {
   EXPECT_EQ(s.kernel, 127);
 }
 
+TEST(Settings, WorkersAreChecked) {
+  Settings s;
+  apply_setting(s, "workers", "256");
+  EXPECT_EQ(s.workers, 256);
+  for (const char* bad : {"257", "-1"})
+    EXPECT_THAT(error_of([&] { apply_setting(s, "workers", bad); }), HasSubstr("0..256")) << bad;
+}
+
 TEST(Settings, BlanksAroundValuesDoNotMatter) {
   Settings s;
   apply_setting(s, "kernel", " 21 ");
@@ -136,7 +148,7 @@ TEST(Settings, UnknownKeyNamesTheNearest) {
   EXPECT_THAT(error_of([&] { apply_setting(s, "kernal", "15"); }), HasSubstr("did you mean kernel?"));
 }
 
-TEST(Settings, TomlFileOverridesTheDefaults) {
+TEST_F(SettingsFile, OverridesTheDefaults) {
   Settings s;
   EXPECT_EQ(load(s,
                  "kernel = 21\nlevels = \"0..2\"\nlength-scale = 'millimetre'\ndump = [\"maps\", \"masks\"]\n"
@@ -150,7 +162,7 @@ TEST(Settings, TomlFileOverridesTheDefaults) {
   EXPECT_EQ(s.foa, 32);
 }
 
-TEST(Settings, TomlErrorsNameTheLine) {
+TEST_F(SettingsFile, ErrorsNameTheLine) {
   Settings s;
   EXPECT_THAT(load(s, "kernel = 15\nkernle = 3\n"), HasSubstr(".toml:2"));
   EXPECT_THAT(load(s, "kernel = 200\n"), HasSubstr("3..127"));
@@ -158,12 +170,18 @@ TEST(Settings, TomlErrorsNameTheLine) {
   EXPECT_THAT(load(s, "[kernel]\nk = 3\n"), HasSubstr(".toml:1"));
 }
 
-TEST(Settings, AHugeFileIsRefused) {
+TEST_F(SettingsFile, AFormatThatIsNotKnownIsRefused) {
   Settings s;
-  const auto path = std::filesystem::path(::testing::TempDir()) / "saccade_huge.toml";
-  write_file(path, std::string((1 << 20) + 1, '#'));
-  EXPECT_THAT(error_of([&] { load_settings(s, path.string()); }, ExitStatus::unreadable),
-              HasSubstr("too large"));
+  const std::string newer = std::to_string(kSettingsFormat + 1);
+  EXPECT_EQ(load(s, "format = " + std::to_string(kSettingsFormat) + "\nkernel = 21\n"), "");
+  EXPECT_THAT(load(s, "format = " + newer + "\n"), HasSubstr("settings of format " + newer));
+  for (const char* bad : {"0", "-1", "1.5", "\"1\""})
+    EXPECT_THAT(load(s, std::string("format = ") + bad + "\n"), HasSubstr("bad value for format")) << bad;
+}
+
+TEST_F(SettingsFile, AHugeOneIsRefused) {
+  Settings s;
+  EXPECT_THAT(load(s, std::string((1 << 20) + 1, '#'), ExitStatus::unreadable), HasSubstr("too large"));
 }
 
 std::string config_file(const char* name) { return in_source("config/") + name; }

@@ -12,6 +12,7 @@
 #include "core/fit_colour.hpp"
 #include "core/png.hpp"
 #include "sources/open_source.hpp"
+#include "tests/support/error_of.hpp"
 #include "tests/support/folder_test.hpp"
 #include "tests/support/no_wait.hpp"
 #include "tests/support/places.hpp"
@@ -85,14 +86,7 @@ class BagSourceTest : public FolderTest {
 
   std::string complaint(const std::string& file, ExitStatus status,
                         const InputSettings& settings = {}) const {
-    try {
-      open_source(file, {{}, settings});
-    } catch (const Error& error) {
-      EXPECT_EQ(error.status(), status) << error.what();
-      return error.what();
-    }
-    ADD_FAILURE() << "no error came";
-    return "";
+    return error_of(status, [&] { open_source(file, {{}, settings}); });
   }
 };
 
@@ -113,6 +107,60 @@ TEST_F(BagSourceTest, EveryContainerAndCompressionGivesTheSameFrames) {
   fs::copy(folder_ / "a.db3", folder_ / "ros2/a_0.db3");
   write_file(folder_ / "ros2/metadata.yaml", std::string_view("rosbag2_bagfile_information:\n"));
   expect_recording(in("ros2"));
+}
+
+// Recorders write messages as they arrive.
+TEST_F(BagSourceTest, FramesComeInTheOrderOfTheirTimesNotOfTheFile) {
+  for (const bool cdr : {false, true}) {
+    auto messages = recording(cdr);
+    std::ranges::reverse(messages);
+    cdr ? write_mcap(folder_ / "a.mcap", messages, "") : write_ros1_bag(folder_ / "a.bag", messages, "none");
+    expect_recording(in(cdr ? "a.mcap" : "a.bag"));
+  }
+}
+
+// Some drivers leave the stamp at 0.
+TEST_F(BagSourceTest, WithoutAStampTheTimeIsThatOfTheRecorder) {
+  for (const char* name : {"a.bag", "a.mcap", "p.mcap", "a.db3"}) {
+    const std::string file = name;
+    TestMessage message = MessageWriter(file != "a.bag").image(kDepth, 0, depth_image(0), "16UC1");
+    message.time_ns = kBegin_ns + 123'456'789;
+    if (file == "a.bag") write_ros1_bag(folder_ / file, {message}, "none");
+    if (file == "a.mcap") write_mcap(folder_ / file, {message}, "lz4");
+    if (file == "p.mcap") write_plain_mcap(folder_ / file, {message});
+    if (file == "a.db3") write_db3(folder_ / file, {message});
+    Frame frame;
+    ASSERT_EQ(open_source(in(file))->read(frame, kNoWait).status, ReadStatus::frame);
+    EXPECT_EQ(frame.timestamp_us, kBegin_ns / 1000 + 123'456) << file;
+  }
+}
+
+TEST_F(BagSourceTest, TheRateIsThatOfTheMessagesThatAreNotMissing) {
+  const MessageWriter writer(true);
+  std::vector<TestMessage> messages;
+  for (const int k : {0, 1, 2, 3, 6, 9, 12})
+    messages.push_back(writer.image(kDepth, stamp(k), depth_image(k), "16UC1"));
+  write_mcap(folder_ / "a.mcap", messages, "");
+  EXPECT_NEAR(open_source(in("a.mcap"))->info().rate_hz, 30, 0.01);
+}
+
+// Every third depth image has a colour image of its moment; the others take the nearest, a period away.
+TEST_F(BagSourceTest, ColourMayBeSlowerThanDepth) {
+  const MessageWriter writer(true);
+  std::vector<TestMessage> messages;
+  for (int k = 0; k < 7; ++k) {
+    messages.push_back(writer.image(kDepth, stamp(k), depth_image(k), "16UC1"));
+    if (k % 3 == 0) messages.push_back(writer.image(kColour, stamp(k), colour_image(k), "bgr8"));
+  }
+  write_mcap(folder_ / "a.mcap", messages, "");
+  const auto source = open_source(in("a.mcap"));
+  for (const int nearest : {0, 0, 3, 3, 3, 6, 6}) {
+    Frame frame;
+    const ReadResult read = source->read(frame, kNoWait);
+    ASSERT_EQ(read.status, ReadStatus::frame);
+    ASSERT_FALSE(frame.colour.empty()) << read.reason;
+    EXPECT_EQ(frame.colour(5, 5), colour_image(nearest)(5, 5));
+  }
 }
 
 // A second opinion: bags by ROS 1's own library.
@@ -230,7 +278,6 @@ TEST_F(BagSourceTest, DamagedRvlIsRejectedWithTheReason) {
   }
 }
 
-// Messages in three parts: the topics of a part may have other numbers, or be missing.
 // OpenCV throws an exception of its own at rows that begin in the middle of a number.
 TEST_F(BagSourceTest, RowsOfHalfNumbersAreRejected) {
   const MessageWriter writer(false);
@@ -249,6 +296,7 @@ TEST_F(BagSourceTest, RowsOfHalfNumbersAreRejected) {
   EXPECT_THAT(result.reason, HasSubstr("a row of 47 bytes ends within a number"));
 }
 
+// Messages in three parts: the topics of a part may have other numbers, or be missing.
 TEST_F(BagSourceTest, ASplitRecordingIsOne) {
   const auto all = recording(true);
   for (const bool database : {false, true}) {
@@ -407,6 +455,35 @@ TEST_F(BagSourceTest, ATruncatedFileGivesWhatItHolds) {
   EXPECT_THAT(source->info().notes, Contains(HasSubstr("truncated")));
   Frame frame;
   EXPECT_EQ(source->read(frame, kNoWait).status, ReadStatus::frame);
+}
+
+// Pixels have no other protection.
+TEST_F(BagSourceTest, AChunkWhoseChecksumDoesNotFitIsDamaged) {
+  write_mcap(folder_ / "a.mcap", recording(true), "", true);
+  expect_recording(in("a.mcap"));
+  auto bytes = read_file(folder_ / "a.mcap");
+  bytes[bytes.size() / 2] ^= 1;
+  write_file(folder_ / "a.mcap", bytes);
+  EXPECT_THAT(complaint(in("a.mcap"), ExitStatus::unreadable), HasSubstr("its checksum does not fit"));
+}
+
+TEST_F(BagSourceTest, ARecordThatIsLongerThanItsChunkEndsIt) {
+  const auto messages = recording(true);
+  write_mcap(folder_ / "a.mcap", messages, "");
+  auto bytes = read_file(folder_ / "a.mcap");
+  constexpr std::size_t kAfterTheChunk = (9 + 4) + (9 + 20) + 8, kFields = 22, kLength = 8;
+  const std::size_t length = bytes.size() - kAfterTheChunk - messages.back().bytes.size() - kFields - kLength;
+  ASSERT_EQ(bytes.at(length), (messages.back().bytes.size() + kFields) & 0xFF);
+  ++bytes[length];
+  write_file(folder_ / "a.mcap", bytes);
+  const auto source = open_source(in("a.mcap"));
+  EXPECT_EQ(source->info().frame_count, 4) << "the last message is one of colour";
+  EXPECT_THAT(source->info().notes, Contains(HasSubstr("a record is longer than its chunk")));
+}
+
+TEST_F(BagSourceTest, MessagesOfAnotherSerialisationAreNotRead) {
+  write_db3(folder_ / "a.db3", recording(true), "other");
+  EXPECT_THAT(complaint(in("a.db3"), ExitStatus::unreadable), HasSubstr("no topic of depth"));
 }
 
 // That it is damaged is the reason, not that it holds no topic of depth.

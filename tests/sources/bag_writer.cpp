@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include <bzlib.h>
+#include <libdeflate.h>
 #include <lz4frame.h>
 #include <sqlite3.h>
 #include <zstd.h>
@@ -303,12 +304,12 @@ void write_ros1_bag(const std::filesystem::path& path, const std::vector<TestMes
 }
 
 void write_mcap(const std::filesystem::path& path, const std::vector<TestMessage>& messages,
-                const std::string& compression) {
+                const std::string& compression, bool checksum) {
   const Bytes records = mcap_records(messages), compressed = compress(records, compression);
   Bytes chunk = little(std::uint64_t{0});
   put(chunk, std::uint64_t{0});
   put(chunk, static_cast<std::uint64_t>(records.size()));
-  put(chunk, std::uint32_t{0});
+  put(chunk, checksum ? libdeflate_crc32(0, records.data(), records.size()) : std::uint32_t{0});
   put_text(chunk, compression);
   put(chunk, static_cast<std::uint64_t>(compressed.size()));
   put_bytes(chunk, compressed);
@@ -325,7 +326,8 @@ void write_plain_mcap(const std::filesystem::path& path, const std::vector<TestM
   write_file(path, out);
 }
 
-void write_db3(const std::filesystem::path& path, const std::vector<TestMessage>& messages) {
+void write_db3(const std::filesystem::path& path, const std::vector<TestMessage>& messages,
+               const std::string& serialisation) {
   sqlite3* database = nullptr;
   if (sqlite3_open(path.c_str(), &database) != SQLITE_OK) throw std::runtime_error("sqlite");
   const auto run = [&](const std::string& sql) {
@@ -342,7 +344,7 @@ void write_db3(const std::filesystem::path& path, const std::vector<TestMessage>
     const std::string number = std::to_string(numbers.at(message.topic));
     if (!std::exchange(defined[message.topic], true))
       run("INSERT INTO topics VALUES(" + number + ",'" + message.topic + "','" + ros2_type(message.type) +
-          "','cdr','')");
+          "','" + serialisation + "','')");
     sqlite3_stmt* statement = nullptr;
     sqlite3_prepare_v2(database, "INSERT INTO messages(topic_id, timestamp, data) VALUES(?, ?, ?)", -1,
                        &statement, nullptr);

@@ -49,10 +49,11 @@ class MessageWriter {
 void write_ros1_bag(const std::filesystem::path& path, const std::vector<TestMessage>& messages,
                     const std::string& compression);
 void write_mcap(const std::filesystem::path& path, const std::vector<TestMessage>& messages,
-                const std::string& compression);
+                const std::string& compression, bool checksum = false);
 /// As .mcap without chunks.
 void write_plain_mcap(const std::filesystem::path& path, const std::vector<TestMessage>& messages);
-void write_db3(const std::filesystem::path& path, const std::vector<TestMessage>& messages);
+void write_db3(const std::filesystem::path& path, const std::vector<TestMessage>& messages,
+               const std::string& serialisation = "cdr");
 
 /// Depth as RVL, by the description of the format; padded to whole words.
 std::vector<std::uint8_t> encode_rvl(const cv::Mat1w& image);

@@ -12,6 +12,7 @@
 #include "core/file.hpp"
 #include "core/png.hpp"
 #include "sources/open_source.hpp"
+#include "tests/support/error_of.hpp"
 #include "tests/support/folder_test.hpp"
 #include "tests/support/no_wait.hpp"
 
@@ -32,14 +33,7 @@ class FolderSourceTest : public FolderTest {
   }
 
   std::string error() const {
-    try {
-      open_source(folder_.string());
-    } catch (const Error& e) {
-      EXPECT_EQ(e.status(), ExitStatus::unreadable);
-      return e.what();
-    }
-    ADD_FAILURE() << "no error came";
-    return "";
+    return error_of(ExitStatus::unreadable, [&] { open_source(folder_.string()); });
   }
 
   // The reason for which the only, or second, frame is rejected.

@@ -16,6 +16,8 @@
 #include "nyu_writer.hpp"
 #include "sources/hdf5_file.hpp"
 #include "sources/open_source.hpp"
+#include "tests/support/error_of.hpp"
+#include "tests/support/folder_test.hpp"
 #include "tests/support/no_wait.hpp"
 
 namespace saccade {
@@ -30,18 +32,9 @@ using ::testing::IsEmpty;
 
 constexpr int kImages = NyuWriter::kImages, kHeight = NyuWriter::kHeight, kWidth = NyuWriter::kWidth;
 
-class NyuSourceTest : public ::testing::Test {
+class NyuSourceTest : public FolderTest {
  protected:
-  void SetUp() override {
-    path_ =
-        fs::path(::testing::TempDir()) /
-        (std::string("saccade_") + ::testing::UnitTest::GetInstance()->current_test_info()->name() + ".mat");
-    file_ = std::make_unique<NyuWriter>(path_);
-  }
-  void TearDown() override {
-    close();
-    fs::remove(path_);
-  }
+  NyuSourceTest() : path_(folder_ / "nyu.mat"), file_(std::make_unique<NyuWriter>(path_)) {}
   void close() { file_->close(); }
 
   template <typename Value, typename... More>
@@ -105,17 +98,10 @@ class NyuSourceTest : public ::testing::Test {
 
   std::string error() {
     close();
-    try {
-      open_source(path_.string());
-    } catch (const Error& e) {
-      EXPECT_EQ(e.status(), ExitStatus::unreadable);
-      return e.what();
-    }
-    ADD_FAILURE() << "no error came";
-    return "";
+    return error_of(ExitStatus::unreadable, [&] { open_source(path_.string()); });
   }
 
-  fs::path path_;
+  const fs::path path_;
   std::unique_ptr<NyuWriter> file_;
 };
 

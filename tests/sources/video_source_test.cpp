@@ -13,6 +13,7 @@
 #include "ffv1_writer.hpp"
 #include "matroska_writer.hpp"
 #include "sources/open_source.hpp"
+#include "tests/support/error_of.hpp"
 #include "tests/support/no_wait.hpp"
 #include "video_files.hpp"
 
@@ -67,13 +68,7 @@ class VideoSourceTest : public VideoFiles {
   }
 
   static std::string complaint(const std::string& source) {
-    try {
-      open_source(source);
-    } catch (const Error& error) {
-      EXPECT_EQ(error.status(), ExitStatus::unreadable);
-      return error.what();
-    }
-    return "";
+    return error_of(ExitStatus::unreadable, [&] { open_source(source); });
   }
 };
 
@@ -224,6 +219,22 @@ TEST_F(VideoSourceTest, UncompressedGray16IsExact) {
   }
   write_raw_matroska(path("r.mkv"), kSize, 50, packets);
   expect_exact(*open_source(path("r.mkv").string()));
+}
+
+TEST_F(VideoSourceTest, PixelsThatAreTooManyOrTooFewAreRejected) {
+  const cv::Mat1w depth = depth_image(0);
+  std::vector<std::vector<std::uint8_t>> packets(3, {depth.data, depth.data + 2 * depth.total()});
+  packets[1].resize(packets[1].size() - 1);
+  packets[2].resize(packets[2].size() + 100'000);
+  write_raw_matroska(path("r.mkv"), kSize, 50, packets);
+  const auto source = open_source(path("r.mkv").string());
+  expect_depth(*source, 0);
+  for (const char* reason : {"6143 bytes for 64x48 pixels", "106144 bytes for 64x48 pixels"}) {
+    Frame frame;
+    const ReadResult read = source->read(frame, kNoWait);
+    EXPECT_EQ(read.status, ReadStatus::rejected);
+    EXPECT_THAT(read.reason, HasSubstr(reason));
+  }
 }
 
 TEST_F(VideoSourceTest, ADamagedImageIsRejectedAndTheNextIsGood) {

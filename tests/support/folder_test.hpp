@@ -1,5 +1,7 @@
 #pragma once
 
+#include <unistd.h>
+
 #include <filesystem>
 #include <string>
 
@@ -7,8 +9,8 @@
 
 namespace saccade {
 
-/// A test with its own folder, empty at the start and removed at the end. The folder is named after suite and
-/// test, so that tests of one program may run at the same time.
+/// A test with its own folder, empty at the start and removed at the end. The folder is named after process,
+/// suite and test, so that tests of one program, and those of two checkouts, may run at the same time.
 class FolderTest : public ::testing::Test {
  protected:
   FolderTest() {
@@ -23,7 +25,7 @@ class FolderTest : public ::testing::Test {
   const std::filesystem::path folder_ = [] {
     const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
     return std::filesystem::path(::testing::TempDir()) /
-           (std::string("saccade_") + test->test_suite_name() + "_" + test->name());
+           ("saccade_" + std::to_string(::getpid()) + "_" + test->test_suite_name() + "_" + test->name());
   }();
 };
 

@@ -205,6 +205,18 @@ TEST_F(AttentionTrackerTest, AfterACutIdsGoOnCounting) {
   }
 }
 
+// Nothing of the scene before is left in it.
+TEST_F(AttentionTrackerTest, TheFrameAfterACutIsThatOfTheSelector) {
+  watch({});
+  for (int k = 0; k < 10; ++k) see(k);
+  scene_.emplace(Options{.scene = "room"});
+  const Attention& after = see(10);
+  ASSERT_TRUE(after.sequence->cut);
+  Attention alone;
+  ProtoSelector(20).select(scene_->saliency(0.1F, 0.3), frame_->depth_mm, frame_->intrinsics, alone);
+  expect_same_fixations(after, alone);
+}
+
 TEST_F(AttentionTrackerTest, ASequenceThatBeginsAgainMayHaveItsIdsAgain) {
   watch({});
   see(0);
