@@ -3,7 +3,7 @@
 include(CMakePackageConfigHelpers)
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/Saccade)
 
-set(package_targets opencv core saliency_simd saliency models attention tracking scene oni openni2 sources)
+set(package_targets opencv core attention_simd saliency_simd saliency models attention tracking scene oni openni2 sources)
 if(SACCADE_OPENNI2)
   list(APPEND package_targets openni2_modules)
 endif()

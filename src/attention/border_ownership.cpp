@@ -22,11 +22,11 @@ void BorderOwnership::measure(const SurfaceGrid& grid, const SurfaceSegments& se
       const int links = grid.links()[static_cast<std::size_t>(i)];
       int& above = above_[static_cast<std::size_t>(c)];
       if (left != kNoCell)
-        add_pair(left, i, i - left - 1, (links & SurfaceGrid::kLeft) != 0);
+        add_pair(left, i, 1, (links & SurfaceGrid::kLeft) != 0);
       else
         add_end(i);
       if (above != kNoCell)
-        add_pair(above, i, (i - above) / cols - 1, (links & SurfaceGrid::kUp) != 0);
+        add_pair(above, i, cols, (links & SurfaceGrid::kUp) != 0);
       else
         add_end(i);
       left = above = i;
@@ -43,10 +43,11 @@ void BorderOwnership::add_end(int i) {
     ++borders_[static_cast<std::size_t>(segment)].all;
 }
 
-// Cells i and j have `gap` cells without depth between them. Links are those of neighbours only.
-void BorderOwnership::add_pair(int i, int j, int gap, bool linked) {
+// Cells i and j, `step` apart or a multiple of it, have no cell with depth between them. Links are those of
+// neighbours only.
+void BorderOwnership::add_pair(int i, int j, int step, bool linked) {
   if (segment_[i] == segment_[j]) return;
-  const bool may_own = gap <= kWidestGap && !linked;
+  const bool may_own = j - i <= (kWidestGap + 1) * step && !linked;
   add_side(i, j, may_own);
   add_side(j, i, may_own);
 }

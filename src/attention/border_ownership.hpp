@@ -27,7 +27,7 @@ class BorderOwnership {
   };
 
   void add_end(int i);
-  void add_pair(int i, int j, int gap, bool linked);
+  void add_pair(int i, int j, int step, bool linked);
   void add_side(int i, int j, bool may_own);
 
   const float* depth_mm_ = nullptr;  ///< of the grid, during measure()

@@ -2,7 +2,10 @@
 
 #include <array>
 #include <cmath>
+#include <span>
 
+#include "attention/simd/cell_means.hpp"
+#include "attention/simd/cell_pixels.hpp"
 #include "attention/surface_grid.hpp"
 
 namespace saccade {
@@ -12,18 +15,24 @@ constexpr int kCell = SurfaceGrid::kCellPx;
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-void mean_of_cells(const cv::Mat1f& saliency, int rows, int cols, std::vector<float>& means) {
-  means.assign(at(rows) * at(cols), 0.0F);
-  constexpr float kShare = 1.0F / (kCell * kCell);
-  for (int r = 0; r < saliency.rows; ++r) {
-    const float* line = saliency[r];
-    float* out = &means[at(r / kCell) * at(cols)];
-    const int whole = saliency.cols / kCell;
-    for (int c = 0; c < whole; ++c) {
-      const float* s = line + c * kCell;
-      out[c] += ((s[0] + s[1]) + (s[2] + s[3])) * kShare;
-    }
-    for (int c = whole * kCell; c < saliency.cols; ++c) out[whole] += line[c] * kShare;
+// Of a cell that the border cuts, the pixels outside count as 0.
+float mean_of_cut_cell(const cv::Mat1f& saliency, int row, int col) {
+  const CellPixels pixels(saliency, row, col);
+  float sum = 0;
+  for (int v = 0; v < kCell; ++v) {
+    const float* const s = pixels.row(v);
+    sum += ((s[0] + s[1]) + (s[2] + s[3])) / (kCell * kCell);
+  }
+  return sum;
+}
+
+void mean_of_cells(const cv::Mat1f& saliency, int rows, int cols, float* means) {
+  for (int r = 0; r < rows; ++r) {
+    float* const out = means + r * cols;
+    const int top = r * kCell, whole = top + kCell <= saliency.rows ? saliency.cols / kCell : 0;
+    if (whole > 0)
+      mean_values({saliency[top], saliency[top + 1], saliency[top + 2], saliency[top + 3]}, out, at(whole));
+    for (int c = whole; c < cols; ++c) out[c] = mean_of_cut_cell(saliency, r, c);
   }
 }
 
@@ -42,24 +51,28 @@ float largest_of(const float* values, int count) {
 }  // namespace
 
 void smooth_cells(const cv::Mat1f& saliency, std::vector<float>& scratch, std::vector<float>& smooth) {
-  constexpr std::array<float, 5> kWeights = {70.0F / 256, 56.0F / 256, 28.0F / 256, 8.0F / 256, 1.0F / 256};
+  constexpr int kReach = 4;
+  constexpr std::array<float, 2 * kReach + 1> kWeights = {1.0F / 256,  8.0F / 256,  28.0F / 256,
+                                                          56.0F / 256, 70.0F / 256, 56.0F / 256,
+                                                          28.0F / 256, 8.0F / 256,  1.0F / 256};
+  const std::span<const float> weights(kWeights);
   const int rows = (saliency.rows + kCell - 1) / kCell, cols = (saliency.cols + kCell - 1) / kCell;
-  mean_of_cells(saliency, rows, cols, scratch);
-  smooth.assign(scratch.size(), 0.0F);
-  const auto add = [](const float* from, float* to, int count, float weight) {
-    for (int i = 0; i < count; ++i) to[i] += from[i] * weight;
-  };
-  for (int r = 0; r < rows; ++r)
-    for (int d = -4; d <= 4; ++d)
-      if (r + d >= 0 && r + d < rows)
-        add(&scratch[at((r + d) * cols)], &smooth[at(r * cols)], cols, kWeights[at(std::abs(d))]);
-  scratch.swap(smooth);
-  std::fill(smooth.begin(), smooth.end(), 0.0F);
-  for (int r = 0; r < rows; ++r)
-    for (int d = -4; d <= 4; ++d)
-      if (const int count = cols - std::abs(d); count > 0)
-        add(&scratch[at(r * cols + std::max(0, d))], &smooth[at(r * cols + std::max(0, -d))], count,
-            kWeights[at(std::abs(d))]);
+  // The means, and behind them a row with zeros at both ends.
+  scratch.resize(at(rows * cols + cols + 2 * kReach));
+  mean_of_cells(saliency, rows, cols, scratch.data());
+  float* const row = &scratch[at(rows * cols)];
+  std::fill_n(row, cols + 2 * kReach, 0.0F);
+  smooth.resize(at(rows * cols));
+  std::array<const float*, 2 * kReach + 1> taken;
+  for (int r = 0; r < rows; ++r) {
+    const int first = std::max(0, r - kReach), last = std::min(rows - 1, r + kReach);
+    const std::size_t count = at(last - first + 1);
+    for (std::size_t k = 0; k < count; ++k) taken[k] = &scratch[at((first + static_cast<int>(k)) * cols)];
+    add_weighted({taken.data(), count}, weights.subspan(at(first - r + kReach), count), row + kReach,
+                 at(cols));
+    for (std::size_t k = 0; k < taken.size(); ++k) taken[k] = row + k;
+    add_weighted(taken, weights, &smooth[at(r * cols)], at(cols));
+  }
 }
 
 void CellCompetition::begin(const std::vector<float>& values, int rows, int cols) {

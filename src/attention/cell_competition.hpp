@@ -1,7 +1,9 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
+#include <cstdlib>
 #include <optional>
 #include <vector>
 
@@ -43,6 +45,10 @@ class CellCompetition {
   void discount_around(int cell);
 
  private:
+  // Of the disc of kMarginCells: how far its row reaches to both sides, by the row's distance from the
+  // middle.
+  static constexpr std::array<int, kMarginCells + 1> kMarginWidth = {3, 2, 2, 0};
+
   void make_return_table();
   bool is_inner(int cell) const;
   void update_row(int row);
@@ -67,13 +73,12 @@ void CellCompetition::inhibit(const std::vector<int>& cells, Spare spare) {
     value_[static_cast<std::size_t>(i)] = 0;
     if (is_inner(i)) continue;  // only cells at the rim reach beyond it
     const int row = i / cols_, col = i % cols_;
-    for (int v = -kMarginCells; v <= kMarginCells; ++v)
-      for (int u = -kMarginCells; u <= kMarginCells; ++u) {
-        if (v * v + u * u > kMarginCells * kMarginCells) continue;
-        if (row + v < 0 || row + v >= rows_ || col + u < 0 || col + u >= cols_) continue;
-        const int j = (row + v) * cols_ + col + u;
+    for (int v = std::max(-kMarginCells, -row); v <= std::min(kMarginCells, rows_ - 1 - row); ++v) {
+      const int half = kMarginWidth[static_cast<std::size_t>(std::abs(v))];
+      const int first = std::max(0, col - half), last = std::min(cols_ - 1, col + half);
+      for (int j = (row + v) * cols_ + first; j <= (row + v) * cols_ + last; ++j)
         if (!spare(j)) value_[static_cast<std::size_t>(j)] = 0;
-      }
+    }
   }
   for (int row = std::max(0, first_row); row <= std::min(rows_ - 1, last_row); ++row) update_row(row);
 }

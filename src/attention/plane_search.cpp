@@ -1,7 +1,6 @@
 #include "attention/plane_search.hpp"
 
-#include <algorithm>
-#include <cmath>
+#include "attention/simd/plane_cells.hpp"
 
 namespace saccade {
 namespace {
@@ -16,7 +15,7 @@ std::optional<InversePlane> tangent_plane(const SurfaceGrid& grid, int i) {
   const double a = static_cast<double>(grid.normal_x()[k]) / camera.fx,
                b = static_cast<double>(grid.normal_y()[k]) / camera.fy;
   InversePlane plane{a, b, static_cast<double>(grid.normal_z()[k]) - a * camera.cx - b * camera.cy};
-  const double along_ray = plane.at(i, grid.cols());
+  const double along_ray = plane.at(i / grid.cols(), i % grid.cols());
   if (!(along_ray < 0)) return std::nullopt;  // normals face the camera; 0: seen edge-on
   const double scale = static_cast<double>(grid.inverse_depth()[k]) / along_ray;
   plane.a *= scale, plane.b *= scale, plane.c *= scale;
@@ -41,10 +40,12 @@ void PlaneSearch::sample(const SurfaceGrid& grid, std::span<const int> cells) {
   }
   with_normal_.clear();
   with_normal_.reserve(grid.size());
+  int row = 0, row_begin = 0;
   for (const int i : cells) {
     const auto k = static_cast<std::size_t>(i);
     if (grid.normal_z()[k] != 0) with_normal_.push_back(i);
-    const int row = i / grid.cols(), col = i % grid.cols();
+    while (i >= row_begin + grid.cols()) ++row, row_begin += grid.cols();
+    const int col = i - row_begin;
     if (row % 2 != 0 || col % 2 != 0) continue;
     col_.push_back(static_cast<float>(col));
     row_.push_back(static_cast<float>(row));
@@ -63,58 +64,33 @@ std::optional<InversePlane> PlaneSearch::best_candidate(const SurfaceGrid& grid)
     if (seed == before) continue;
     before = seed;
     const auto candidate = tangent_plane(grid, with_normal_[seed]);
-    const int count = candidate ? votes(*candidate, most) : 0;
+    if (!candidate) continue;
+    const int count =
+        count_in_plane(counted(), static_cast<float>(candidate->a), static_cast<float>(candidate->b),
+                       static_cast<float>(candidate->c), kCandidateReach, most);
     if (count > most) most = count, best = candidate;
   }
   return best;
 }
 
-// Of a plane that has more than `least`; else any number up to that, since the count ends when the rest is
-// too few. A sum of ones and no branch within a block, so that compilers make vectors of it.
-int PlaneSearch::votes(const InversePlane& plane, int least) const {
-  constexpr int kBlock = 256;
-  const float a = static_cast<float>(plane.a), b = static_cast<float>(plane.b),
-              c = static_cast<float>(plane.c);
-  const float *col = col_.data(), *row = row_.data(), *w = w_.data();
-  const int cells = static_cast<int>(w_.size());
-  int count = 0;
-  for (int begin = 0; begin < cells && count + (cells - begin) > least; begin += kBlock) {
-    const int end = std::min(begin + kBlock, cells);
-    for (int i = begin; i < end; ++i)
-      count += std::abs(a * col[i] + b * row[i] + c - w[i]) <= kCandidateReach * w[i] ? 1 : 0;
-  }
-  return count;
-}
-
 // Least squares over the cells within `reach` of the plane. False if they do not make a plane.
 bool PlaneSearch::refine(InversePlane& plane, double reach) const {
-  double n = 0, su = 0, sv = 0, suu = 0, svv = 0, suv = 0, sw = 0, suw = 0, svw = 0;
-  for (std::size_t i = 0; i < w_.size(); ++i) {
-    const double u = static_cast<double>(col_[i]), v = static_cast<double>(row_[i]),
-                 w = static_cast<double>(w_[i]);
-    if (std::abs(plane.a * u + plane.b * v + plane.c - w) > reach * w) continue;
-    n += 1, su += u, sv += v, suu += u * u, svv += v * v, suv += u * v;
-    sw += w, suw += u * w, svw += v * w;
-  }
-  const double uu = n * suu - su * su, vv = n * svv - sv * sv, uv = n * suv - su * sv;
+  const PlaneSums s = sum_in_plane(counted(), plane.a, plane.b, plane.c, reach);
+  const double uu = s.n * s.uu - s.u * s.u, vv = s.n * s.vv - s.v * s.v, uv = s.n * s.uv - s.u * s.v;
   const double determinant = uu * vv - uv * uv;
-  if (n < 3 || determinant <= 0) return false;
-  const double uw = n * suw - su * sw, vw = n * svw - sv * sw;
+  if (s.n < 3 || determinant <= 0) return false;
+  const double uw = s.n * s.uw - s.u * s.w, vw = s.n * s.vw - s.v * s.w;
   plane.a = (uw * vv - vw * uv) / determinant;
   plane.b = (vw * uu - uw * uv) / determinant;
-  plane.c = (sw - plane.a * su - plane.b * sv) / n;
+  plane.c = (s.w - plane.a * s.u - plane.b * s.v) / s.n;
   return true;
 }
 
+PlaneCells PlaneSearch::counted() const { return {col_.data(), row_.data(), w_.data(), w_.size()}; }
+
 double PlaneSearch::share_in(const InversePlane& plane) const {
-  int in = 0;
-  for (std::size_t i = 0; i < w_.size(); ++i) {
-    const double w = static_cast<double>(w_[i]);
-    const double at =
-        plane.a * static_cast<double>(col_[i]) + plane.b * static_cast<double>(row_[i]) + plane.c;
-    in += std::abs(at - w) <= kReach * w ? 1 : 0;
-  }
-  return static_cast<double>(in) / static_cast<double>(w_.size());
+  const PlaneSums sums = sum_in_plane(counted(), plane.a, plane.b, plane.c, kReach);
+  return sums.n / static_cast<double>(w_.size());
 }
 
 }  // namespace saccade

@@ -8,15 +8,13 @@
 
 namespace saccade {
 
+struct PlaneCells;
+
 /// A plane in inverse depth: 1/z = a*col + b*row + c, 1/mm, col and row in cells of a SurfaceGrid.
 struct InversePlane {
   double a = 0, b = 0, c = 0;
 
-  /// 1/z at cell i of a grid with `cols` columns.
-  double at(int i, int cols) const {
-    const int row = i / cols, col = i % cols;
-    return a * col + b * row + c;
-  }
+  double at(int row, int col) const { return a * col + b * row + c; }
 };
 
 /// Finds the plane that holds the most of a set of cells (README.md, section 4). Least squares over all of
@@ -42,9 +40,9 @@ class PlaneSearch {
  private:
   void sample(const SurfaceGrid& grid, std::span<const int> cells);
   std::optional<InversePlane> best_candidate(const SurfaceGrid& grid) const;
-  int votes(const InversePlane& plane, int least) const;
   bool refine(InversePlane& plane, double reach) const;
   double share_in(const InversePlane& plane) const;
+  PlaneCells counted() const;
 
   std::vector<float> col_, row_, w_;  ///< of the cells that are counted
   std::vector<int> with_normal_;      ///< of all cells

@@ -1,13 +1,9 @@
 #include "attention/proto_objects.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <limits>
 
-#include <opencv2/core/hal/intrin.hpp>
-
-#include "attention/cell_pixels.hpp"
+#include "attention/simd/cell_points.hpp"
 
 namespace saccade {
 namespace {
@@ -51,11 +47,16 @@ void ProtoObjects::list_cells_of_segments() {
 }
 
 void ProtoObjects::set_rays(const Intrinsics& camera) {
-  const cv::Size size = depth_mm_->size();
-  ray_x_.assign(at(grid_->cols() * kCell), 0.0F);
-  ray_y_.resize(at(size.height));
-  for (int c = 0; c < size.width; ++c) ray_x_[at(c)] = static_cast<float>((c - camera.cx) / camera.fx);
-  for (int r = 0; r < size.height; ++r) ray_y_[at(r)] = static_cast<float>((r - camera.cy) / camera.fy);
+  ray_x_.resize(at(grid_->cols()));
+  ray_y_.resize(at(grid_->rows()));
+  const std::size_t side = at(kCell);
+  for (std::size_t p = 0; p < side * side; ++p) {  // the pixels of a cell
+    const auto u = static_cast<double>(p % side), v = static_cast<double>(p / side);
+    for (std::size_t c = 0; c < ray_x_.size(); ++c)
+      ray_x_[c][p] = static_cast<float>((static_cast<double>(c * side) + u - camera.cx) / camera.fx);
+    for (std::size_t r = 0; r < ray_y_.size(); ++r)
+      ray_y_[r][p] = static_cast<float>((static_cast<double>(r * side) + v - camera.cy) / camera.fy);
+  }
 }
 
 const std::vector<int>& ProtoObjects::around(int cell) {
@@ -83,46 +84,15 @@ cv::Point ProtoObjects::fixated_pixel(const cv::Mat1f& saliency, int cell) const
 }
 
 ProtoObject ProtoObjects::paint(const std::vector<int>& cells, cv::Mat1w& masks, int rank) const {
-  using Lanes = cv::v_float32x4;  // the columns of a cell
-  static_assert(kCell == Lanes::nlanes);
-  constexpr float kFar = std::numeric_limits<float>::max();
-  const Lanes one = cv::v_setall_f32(1), far = cv::v_setall_f32(kFar), near = cv::v_setall_f32(-kFar);
-  std::array<Lanes, 3> low = {far, far, far}, high = {near, near, near};
-  cv::Point3d sum;
+  const CellImage image{*depth_mm_, grid_->depth_mm().data(), grid_->cols(), ray_x_, ray_y_};
+  const PointSums points =
+      paint_points(image, cells, SurfaceGrid::kSameSurface, static_cast<std::uint16_t>(rank), masks);
   ProtoObject object;
-  for (int i : cells) {
-    const int row = i / grid_->cols(), col = i % grid_->cols();
-    const CellPixels pixels(*depth_mm_, row, col);
-    const Lanes z0 = cv::v_setall_f32(grid_->depth_mm()[at(i)]);
-    const Lanes reach = z0 * cv::v_setall_f32(SurfaceGrid::kSameSurface);
-    const Lanes ray_x = cv::v_load(&ray_x_[at(col * kCell)]);
-    Lanes count = cv::v_setzero_f32();
-    std::array<Lanes, 3> cell_sum = {count, count, count};  // of few pixels, so that float holds it well
-    for (int v = 0; v < pixels.rows(); ++v) {
-      const int r = row * kCell + v;
-      const Lanes z = cv::v_load(pixels.row(v));
-      const Lanes on_it = (cv::v_abs(z - z0) <= reach) & (z > cv::v_setzero_f32());
-      const std::array<Lanes, 3> point = {ray_x * z, cv::v_setall_f32(ray_y_[at(r)]) * z, z};
-      count += one & on_it;
-      for (std::size_t k = 0; k < 3; ++k) {
-        cell_sum[k] += point[k] & on_it;
-        low[k] = cv::v_min(low[k], cv::v_select(on_it, point[k], far));
-        high[k] = cv::v_max(high[k], cv::v_select(on_it, point[k], near));
-      }
-      const int bits = cv::v_signmask(on_it);
-      ushort* const mask = masks[r] + col * kCell;
-      for (int u = 0; u < pixels.cols(); ++u)
-        mask[u] = static_cast<ushort>((bits >> u & 1) != 0 ? rank : mask[u]);
-    }
-    sum += cv::Point3d(cv::v_reduce_sum(cell_sum[0]), cv::v_reduce_sum(cell_sum[1]),
-                       cv::v_reduce_sum(cell_sum[2]));
-    object.pixels += cvRound(cv::v_reduce_sum(count));
-  }
-  if (object.pixels == 0) return object;
-  object.centroid_mm = sum / object.pixels;
-  object.extent_mm = {cv::v_reduce_max(high[0]) - cv::v_reduce_min(low[0]),
-                      cv::v_reduce_max(high[1]) - cv::v_reduce_min(low[1]),
-                      cv::v_reduce_max(high[2]) - cv::v_reduce_min(low[2])};
+  object.pixels = points.count;
+  if (points.count == 0) return object;
+  object.centroid_mm = cv::Point3d(points.sum[0], points.sum[1], points.sum[2]) / points.count;
+  object.extent_mm = {points.high[0] - points.low[0], points.high[1] - points.low[1],
+                      points.high[2] - points.low[2]};
   return object;
 }
 

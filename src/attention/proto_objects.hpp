@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include <opencv2/core.hpp>
@@ -39,7 +40,9 @@ class ProtoObjects {
   const SurfaceGrid* grid_ = nullptr;
   const SurfaceSegments* segments_ = nullptr;
   const cv::Mat1f* depth_mm_ = nullptr;
-  std::vector<float> ray_x_, ray_y_;  // x/z of each column (0 beyond the image), y/z of each row
+  // One value for each pixel of a cell: x/z by column of cells, y/z by row of cells.
+  using CellRays = std::array<float, static_cast<std::size_t>(SurfaceGrid::kCellPx) * SurfaceGrid::kCellPx>;
+  std::vector<CellRays> ray_x_, ray_y_;
   std::vector<int> first_of_segment_, cells_of_segment_;
   std::vector<int> cells_;
 };

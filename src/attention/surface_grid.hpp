@@ -10,6 +10,9 @@
 
 namespace saccade {
 
+struct FramedCells;
+struct OrientedCells;
+
 /// The depth image in cells of kCellPx x kCellPx pixels, each with a depth, a point, a normal over a wide
 /// window, and the links to its neighbours: two cells are linked if one surface goes through both.
 /// Arrays are row by row; they and their memory stay until the next build().
@@ -62,28 +65,19 @@ class SurfaceGrid {
 
   void make_cells(const cv::Mat1f& depth_mm);
   float cell_depth(const cv::Mat1f& depth_mm, int row, int col) const;
+  void place_row(int row, const float* z, float* x, float* y, float* w) const;
   void make_normals();
-  void sum_fives();
-  void pad();
-  bool is_whole(int row, int col) const;
-  void normals_with_gaps(int row, int first_col);
-  void set_normal(std::size_t i, int row, int col, float slope_u, float slope_v, float w);
+  FramedCells frame();
+  OrientedCells oriented() const;
   void find_concave_edges();
-  void mark_concave(int begin, int end, int step);
   void find_links();
-  void mark_linked(int step);
-  void add_links(int step, Link ahead, Link behind);
-
-  static constexpr int kLanes = 4;  // cells that normals_with_gaps() takes at once
-  std::size_t padded_stride() const { return static_cast<std::size_t>(cols_) + 4 + kLanes; }
 
   int rows_ = 0, cols_ = 0;
   Intrinsics camera_;
   std::vector<float> x_, y_, z_, w_, nx_, ny_, nz_;
-  std::vector<float> lowest_, highest_, sum_, sum_u_;  ///< of five cells in a row
-  std::vector<float> padded_z_, padded_w_;             ///< with a frame of cells without depth
-  std::vector<float> column_low_, column_high_, column_sum_;
-  std::vector<std::int32_t> marked_;  ///< cells of a concave edge, or with a link in one direction
+  std::vector<float> framed_z_, framed_w_;  ///< with a frame of cells without depth
+  std::vector<std::uint8_t> concave_;       ///< cells of a concave edge
+  std::vector<std::uint8_t> right_, down_;  ///< cells that are linked with the next one
   std::vector<std::uint8_t> links_, convex_;
 };
 

@@ -100,12 +100,13 @@ void SurfaceSegments::find_supporting_planes(const SurfaceGrid& grid) {
 }
 
 void SurfaceSegments::cut_from_plane(const SurfaceGrid& grid, int segment, const InversePlane& plane) {
-  const int cells = static_cast<int>(grid.size());
-  for (int i = 0; i < cells; ++i)
-    if (of_cell_[static_cast<std::size_t>(i)] == segment) {
-      const double w = static_cast<double>(grid.inverse_depth()[static_cast<std::size_t>(i)]);
-      if (std::abs(plane.at(i, grid.cols()) - w) > kOffPlane * w)
-        of_cell_[static_cast<std::size_t>(i)] = kUngrown;
+  const float* w = grid.inverse_depth().data();
+  int* of_cell = of_cell_.data();
+  for (int row = 0; row < grid.rows(); ++row, of_cell += grid.cols(), w += grid.cols())
+    for (int col = 0; col < grid.cols(); ++col) {
+      const double inverse = static_cast<double>(w[col]);
+      if (of_cell[col] == segment && std::abs(plane.at(row, col) - inverse) > kOffPlane * inverse)
+        of_cell[col] = kUngrown;
     }
   grow_rest(grid);
 }

@@ -71,8 +71,10 @@ void expect_as_slow(const SurfaceGrid& grid, const std::vector<int>& cells) {
   ASSERT_EQ(fast.has_value(), slow.has_value());
   if (!fast) return;
   EXPECT_NEAR(fast->share, slow->share, 0.01);
-  for (const int i : cells)
-    EXPECT_NEAR(fast->plane.at(i, grid.cols()) / slow->plane.at(i, grid.cols()), 1, 0.002) << i;
+  for (const int i : cells) {
+    const int row = i / grid.cols(), col = i % grid.cols();
+    EXPECT_NEAR(fast->plane.at(row, col) / slow->plane.at(row, col), 1, 0.002) << i;
+  }
 }
 
 std::vector<int> cells_with_depth(const SurfaceGrid& grid) {
@@ -107,13 +109,14 @@ TEST(PlaneSearch, FindsTheLargestOfSeveralPlanes) {
   const auto found = search.find(grid, cells_with_depth(grid));
   ASSERT_TRUE(found);
   EXPECT_NEAR(found->share, 0.75, 0.03);
-  const int floor = 50 * grid.cols() + 40, wall = 2 * grid.cols() + 40;
-  const auto off = [&](int i) {
-    const double w = static_cast<double>(grid.inverse_depth()[static_cast<std::size_t>(i)]);
-    return std::abs(found->plane.at(i, grid.cols()) - w) / w;
+  const auto off = [&](int row) {
+    constexpr int kCol = 40;
+    const double w =
+        static_cast<double>(grid.inverse_depth()[static_cast<std::size_t>(row * grid.cols() + kCol)]);
+    return std::abs(found->plane.at(row, kCol) - w) / w;
   };
-  EXPECT_LT(off(floor), 0.002);
-  EXPECT_GT(off(wall), 0.1);
+  EXPECT_LT(off(50), 0.002);  // floor
+  EXPECT_GT(off(2), 0.1);     // wall
 }
 
 TEST(PlaneSearch, TooFewCellsOrALineAreNoPlane) {

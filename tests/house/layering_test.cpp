@@ -20,7 +20,7 @@ using ::testing::SizeIs;
 
 const Floors kHouse = {
     {"src/core"},
-    {"src/scene", "src/oni", "drivers/openni2", "src/saliency/simd"},
+    {"src/scene", "src/oni", "drivers/openni2", "src/saliency/simd", "src/attention/simd"},
     {"src/saliency"},
     {"src/models", "src/attention", "src/sources"},
     {"src/tracking"},
