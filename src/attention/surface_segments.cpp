@@ -55,7 +55,7 @@ void SurfaceSegments::grow_convex(const SurfaceGrid& grid) {
       });
     const std::size_t grown = queue_.size() - begin;
     if (grown >= kFewestCells) {
-      segments_.push_back({static_cast<int>(grown), false});
+      segments_.push_back({static_cast<int>(grown)});
       continue;
     }
     for (std::size_t k = begin; k < queue_.size(); ++k)
@@ -128,10 +128,20 @@ void SurfaceSegments::grow_rest(const SurfaceGrid& grid) {
         queue_.push_back(j);
       });
     if (queue_.size() >= kFewestCells)
-      segments_.push_back({static_cast<int>(queue_.size()), false});
+      segments_.push_back({static_cast<int>(queue_.size())});
     else
       for (int i : queue_) of_cell_[static_cast<std::size_t>(i)] = kNone;
   }
+}
+
+void SurfaceSegments::cut(const std::vector<int>& cells) {
+  segments_.reserve(of_cell_.size() / kFewestCells);
+  for (const int cell : cells) {
+    int& segment = of_cell_[static_cast<std::size_t>(cell)];
+    --segments_[static_cast<std::size_t>(segment)].cells;
+    segment = count();
+  }
+  segments_.push_back({.cells = static_cast<int>(cells.size()), .cut = true});
 }
 
 }  // namespace saccade

@@ -31,10 +31,16 @@ class SurfaceSegments {
     return segments_[static_cast<std::size_t>(segment)].supporting_plane;
   }
 
+  /// Makes a segment of `cells`, which belong to segments now; for what depth does not show.
+  void cut(const std::vector<int>& cells);
+  /// Whether cut() has made it.
+  bool is_cut(int segment) const { return segments_[static_cast<std::size_t>(segment)].cut; }
+
  private:
   struct Segment {
     int cells = 0;
     bool supporting_plane = false;
+    bool cut = false;
   };
 
   void grow_convex(const SurfaceGrid& grid);

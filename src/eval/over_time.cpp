@@ -237,6 +237,22 @@ WatchedFrame watched_frame(const Frame& frame, const Attention& attention) {
   return watched;
 }
 
+std::optional<double> best_identity_f1(const std::vector<WatchedFrame>& frames) {
+  std::size_t objects = 0, hit = 0, on_objects = 0;
+  for (const WatchedFrame& frame : frames) {
+    objects += frame.labels.size();
+    for (const int label : frame.labels) {
+      const auto points =
+          static_cast<std::size_t>(std::count_if(frame.points.begin(), frame.points.end(),
+                                                 [&](const Point& point) { return point.label == label; }));
+      hit += points > 0;
+      on_objects += points;
+    }
+  }
+  if (objects == 0) return std::nullopt;
+  return 2 * static_cast<double>(hit) / static_cast<double>(objects + on_objects);
+}
+
 OverTime measure_over_time(const std::vector<WatchedFrame>& frames) {
   OverTime result;
   const bool poses = !frames.empty() &&
@@ -254,6 +270,7 @@ OverTime measure_over_time(const std::vector<WatchedFrame>& frames) {
   }
   result.first_stays = first_stays(frames);
   measure_identity(frames, result);
+  result.best_identity_f1 = best_identity_f1(frames);
   result.id_switches = id_switches(frames);
   return result;
 }

@@ -71,12 +71,18 @@ struct OverTime {
   /// identity_f1 counts the fixations on labelled objects; identity_f1_all counts all, so those on other
   /// things as errors. None without labels.
   std::optional<double> identity_f1, identity_f1_all;
+  /// identity_f1 if ids were perfect: an object that has points in a frame has one under its own id. What is
+  /// missing to 1 is lost by the choice of points, what lies between it and identity_f1 by their ids.
+  std::optional<double> best_identity_f1;
   /// Where identity_f1 is lost, by label, and the points on no object.
   std::map<int, IdentityCounts> of_label;
   int points_on_nothing = 0;
   /// How often an object was hit under other ids than the last time.
   int id_switches = 0;
 };
+
+/// OverTime::best_identity_f1 of frames whose ids need not be known; none if no object is in view.
+[[nodiscard]] std::optional<double> best_identity_f1(const std::vector<WatchedFrame>& frames);
 
 [[nodiscard]] OverTime measure_over_time(const std::vector<WatchedFrame>& frames);
 

@@ -48,10 +48,12 @@ class Watcher {
     add(result_.hit_ratio, frame);
     selector_->select(maps_.master, frame.depth_mm, frame.intrinsics, attention_);
     add(result_.hit_ratio_alone, frame);
+    watched_alone_.push_back(watched_frame(frame, attention_));
   }
 
   SequenceResult finish() {
     result_.over_time = measure_over_time(watched_);
+    result_.best_identity_f1_alone = best_identity_f1(watched_alone_);
     for (auto* ratio : {&result_.hit_ratio, &result_.hit_ratio_alone})
       for (double& value : *ratio) value /= static_cast<double>(result_.frames);
     return std::move(result_);
@@ -74,7 +76,7 @@ class Watcher {
   std::unique_ptr<AttentionSelector> selector_;
   SaliencyMaps maps_;
   Attention attention_;
-  std::vector<WatchedFrame> watched_;
+  std::vector<WatchedFrame> watched_, watched_alone_;
   SequenceResult result_;
 };
 
@@ -100,6 +102,10 @@ std::vector<Measure> measures() {
   all.push_back({"first stays", [](const SequenceResult& r) { return r.over_time.first_stays; }});
   all.push_back({"IDF1", [](const SequenceResult& r) { return r.over_time.identity_f1; }});
   all.push_back({"IDF1, all points", [](const SequenceResult& r) { return r.over_time.identity_f1_all; }});
+  all.push_back(
+      {"best IDF1, over time", [](const SequenceResult& r) { return r.over_time.best_identity_f1; }});
+  all.push_back(
+      {"best IDF1, frame by frame", [](const SequenceResult& r) { return r.best_identity_f1_alone; }});
   for (const std::size_t n : {3U, 5U, 10U}) {
     all.push_back({fmt::format("HR at {}, over time", n),
                    [n](const SequenceResult& r) { return ratio_at(r.hit_ratio, n); }});
@@ -186,6 +192,8 @@ nlohmann::ordered_json over_time_json(const std::vector<SequenceResult>& results
     json["ids_per_place"] = json_of(result.over_time.ids_per_place);
     json["identity_f1"] = json_of(result.over_time.identity_f1);
     json["identity_f1_all"] = json_of(result.over_time.identity_f1_all);
+    json["best_identity_f1"] = {{"over_time", json_of(result.over_time.best_identity_f1)},
+                                {"frame_by_frame", json_of(result.best_identity_f1_alone)}};
     json["id_switches"] = result.over_time.id_switches;
     if (!result.over_time.of_label.empty()) json["identity"] = identity_json(result.over_time);
     json["hit_ratio"] = {{"over_time", result.hit_ratio}, {"frame_by_frame", result.hit_ratio_alone}};

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,8 @@ struct SequenceResult {
   /// HR_n, n = 1..settings.fixations, mean over the frames: with memory, and each frame alone; empty without
   /// labels.
   std::vector<double> hit_ratio, hit_ratio_alone;
+  /// best_identity_f1() of the points of each frame alone; none without labels.
+  std::optional<double> best_identity_f1_alone;
 };
 
 /// Watches the frames that `settings` select of a source that is not live, with the model, kernel and number

@@ -27,12 +27,15 @@ const std::vector<std::size_t>& AttentionOrder::choose(const View& view, int cou
     const auto winner = competition_.winner();
     if (!winner) break;
     TrackedObject* next = expected();
-    if (next == nullptr || competition_.value(*winner) > kMargin * strength(*next))
+    if (next == nullptr ||
+        (competition_.value(*winner) > kMargin * strength(*next) && may_enter(*winner, count, shapes)))
       next = &stands_for(*winner, shapes, proto_objects);
-    if (!next->chosen && confirm(*next))
+    if (!next->chosen && confirm(*next)) {
+      make_room(*next, count);
       take(*next, proto_objects);
-    else
+    } else {
       inhibit(*next);
+    }
   }
   rank_the_rest();
   return chosen_;
@@ -42,12 +45,14 @@ void AttentionOrder::begin(const ObjectShapes& shapes) {
   for (TrackedObject& object : objects_->slots()) {
     const double age_s = static_cast<double>(view_->frame.timestamp_us - object.first_seen_us) * 1e-6;
     object.appeared = object.appeared && age_s < kAppeared_s;
+    object.evidence = 0;
   }
   values_ = surfaces_->mean();
   for (int i = 0; i < static_cast<int>(values_.size()); ++i) {
-    const TrackedObject* owner = objects_->of_owner(surfaces_->owner()[at(i)]);
+    TrackedObject* owner = objects_->of_owner(surfaces_->owner()[at(i)]);
     const int segment = view_->segments.of_cell()[at(i)];
     if (owner != nullptr ? owner->appeared : has_appeared(segment, shapes)) values_[at(i)] *= kAppeared;
+    if (owner != nullptr) owner->evidence = std::max(owner->evidence, values_[at(i)]);
   }
   competition_.begin(values_, view_->grid.rows(), view_->grid.cols());
 }
@@ -75,9 +80,40 @@ void AttentionOrder::list_expected() {
 TrackedObject* AttentionOrder::expected() {
   for (; next_expected_ < expected_.size(); ++next_expected_) {
     TrackedObject& object = objects_->slots()[expected_[next_expected_]];
-    if (!object.chosen && strength(object) > 0) return &object;
+    if (!object.chosen && !object.passed_over && strength(object) > 0) return &object;
   }
   return nullptr;
+}
+
+// The weakest of the members that have not been chosen, if there are as many of them as places are left; else
+// nullptr.
+TrackedObject* AttentionOrder::last_to_stay(int count) {
+  int members = 0;
+  TrackedObject* weakest = nullptr;
+  for (const std::size_t slot : expected_) {
+    TrackedObject& object = objects_->slots()[slot];
+    if (!object.member || object.chosen || object.passed_over || object.is_part() || !(strength(object) > 0))
+      continue;
+    ++members;
+    if (weakest == nullptr || object.evidence < weakest->evidence) weakest = &object;
+  }
+  return members >= count - static_cast<int>(chosen_.size()) ? weakest : nullptr;
+}
+
+// Whether what the cell speaks for is a member, or may become one. What has appeared always may.
+bool AttentionOrder::may_enter(int cell, int count, const ObjectShapes& shapes) {
+  const TrackedObject* owner = objects_->of_owner(surfaces_->owner()[at(cell)]);
+  if (owner != nullptr && (owner->member || owner->chosen)) return true;
+  if (owner != nullptr ? owner->appeared : has_appeared(view_->segments.of_cell()[at(cell)], shapes))
+    return true;
+  const TrackedObject* weakest = last_to_stay(count);
+  return weakest == nullptr || values_[at(cell)] > kEnter * weakest->evidence;
+}
+
+// Before a newcomer takes a place that a member waits for.
+void AttentionOrder::make_room(const TrackedObject& newcomer, int count) {
+  if (newcomer.member || newcomer.is_part()) return;
+  if (TrackedObject* weakest = last_to_stay(count)) weakest->passed_over = true;
 }
 
 // What is in view and was not chosen lines up behind. What is hidden keeps its rank for when it is seen
@@ -85,7 +121,10 @@ TrackedObject* AttentionOrder::expected() {
 void AttentionOrder::rank_the_rest() {
   int rank = static_cast<int>(chosen_.size());
   for (const std::size_t slot : expected_)
-    if (TrackedObject& object = objects_->slots()[slot]; !object.chosen) object.rank = rank++;
+    if (TrackedObject& object = objects_->slots()[slot]; !object.chosen) {
+      object.rank = rank++;
+      object.member = false;
+    }
 }
 
 // The object that the winning cell speaks for: its owner, or the one whose segment reaches there.
@@ -156,15 +195,52 @@ void AttentionOrder::take(TrackedObject& object, const ProtoObjects& proto_objec
   if (object.is_part()) return;
   competition_.discount_around(object.point_cell);
   chosen_.push_back(at(objects_->owner_of(object) - 1));
+  object.member = true;
 }
 
 // Of the margin, the cells that belong to another object's segment are spared: they are its own to lose.
 void AttentionOrder::inhibit(const TrackedObject& object) {
-  competition_.inhibit(object.cells, [&](int cell) {
+  reach_over_planes(object);
+  competition_.inhibit(reached_, [&](int cell) {
     if (view_->first) return false;
     const TrackedObject* owner = objects_->of_owner(surfaces_->owner()[at(cell)]);
     return owner != nullptr && owner != &object && !owner->disc;
   });
+}
+
+// On a supporting plane, and not of another object that has a segment.
+bool AttentionOrder::is_free_plane(int cell, const TrackedObject& object) const {
+  const int segment = view_->segments.of_cell()[at(cell)];
+  if (segment == SurfaceSegments::kNone || !view_->segments.is_supporting_plane(segment)) return false;
+  const TrackedObject* owner = objects_->of_owner(surfaces_->owner()[at(cell)]);
+  return owner == nullptr || owner == &object || owner->disc;
+}
+
+// Sets reached_ to the cells of an object and those of supporting planes around it. Rings of four and of
+// eight neighbours in turns make it an octagon.
+void AttentionOrder::reach_over_planes(const TrackedObject& object) {
+  reached_.reserve(view_->grid.size());
+  reached_ = object.cells;
+  if (view_->first) return;
+  const int cols = view_->grid.cols();
+  in_reach_.assign(view_->grid.size(), 0);
+  for (const int cell : reached_) in_reach_[at(cell)] = 1;
+  std::size_t begin = 0;
+  for (int step = 0; step < kPlaneCells; ++step) {
+    const std::size_t end = reached_.size();
+    for (std::size_t k = begin; k < end; ++k) {
+      const int row = reached_[k] / cols, col = reached_[k] % cols;
+      for (int v = -1; v <= 1; ++v)
+        for (int u = -1; u <= 1; ++u) {
+          if ((step % 2 == 0 && v != 0 && u != 0) || !in_grid(view_->grid, row + v, col + u)) continue;
+          const int cell = reached_[k] + v * cols + u;
+          if (in_reach_[at(cell)] || !is_free_plane(cell, object)) continue;
+          in_reach_[at(cell)] = 1;
+          reached_.push_back(cell);
+        }
+    }
+    begin = end;
+  }
 }
 
 AttentionOrder::Peak AttentionOrder::best_of(const TrackedObject& object) const {

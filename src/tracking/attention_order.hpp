@@ -20,6 +20,11 @@ namespace saccade {
 /// object, or for a candidate. A candidate becomes an object, with an id, when it was chosen in kConfirm
 /// frames.
 ///
+/// The objects of the last frame's order are *members* of it until they are seen and not chosen. While there
+/// are as many members as places, a newcomer must be kEnter times as strong as the weakest of them, each by
+/// the largest value of all its cells, unless it has appeared; it takes that one's place. So what was
+/// reported does not fall out because something that is hardly stronger came into view.
+///
 /// An object is as strong as the cells around its anchor. The anchor moves only if another place of the
 /// object is better by kBetterPlace for kPatience_s, or if its own is hidden for so long, or out of view.
 /// Without memory (the first frame, or after a cut) the order, the cells and the points are those of
@@ -27,6 +32,8 @@ namespace saccade {
 class AttentionOrder {
  public:
   static constexpr float kMargin = 2, kBetterPlace = 4;
+  static constexpr float kEnter = 12;    ///< of a newcomer to an order that is full
+  static constexpr int kPlaneCells = 3;  ///< of supporting planes, inhibited with an object beside its margin
   static constexpr int kConfirm = 3;
   static constexpr double kPatience_s = 0.5;
   static constexpr int kPlaceCells = 3;  ///< radius, of the cells around an anchor
@@ -68,12 +75,17 @@ class AttentionOrder {
   void list_expected();
   TrackedObject* expected();
   void rank_the_rest();
+  TrackedObject* last_to_stay(int count);
+  bool may_enter(int cell, int count, const ObjectShapes& shapes);
+  void make_room(const TrackedObject& newcomer, int count);
   TrackedObject& stands_for(int cell, const ObjectShapes& shapes, ProtoObjects& proto_objects);
   int slot_of(int segment, int cell, const ObjectShapes& shapes) const;
   TrackedObject& new_candidate(int cell, const ObjectShapes& shapes, ProtoObjects& proto_objects);
   bool confirm(TrackedObject& object);
   void take(TrackedObject& object, const ProtoObjects& proto_objects);
   void inhibit(const TrackedObject& object);
+  void reach_over_planes(const TrackedObject& object);
+  bool is_free_plane(int cell, const TrackedObject& object) const;
   Peak best_of(const TrackedObject& object) const;
   Peak best_at_anchor(const TrackedObject& object) const;
   float strength(const TrackedObject& object) const;
@@ -89,6 +101,8 @@ class AttentionOrder {
   std::vector<std::size_t> expected_;  // slots in the order of the frame before
   std::size_t next_expected_ = 0;
   std::vector<std::size_t> chosen_;
+  std::vector<int> reached_;             // cells that an object inhibits
+  std::vector<unsigned char> in_reach_;  // by cell: whether it is one of these
 };
 
 }  // namespace saccade

@@ -31,7 +31,6 @@ void AttentionTracker::forget_evidence() {
 void AttentionTracker::attend(const Frame& frame, const cv::Mat1f& saliency, const FrameSurfaces& surfaces,
                               const CameraStep& step, Attention& attention) {
   const SurfaceGrid& grid = surfaces.grid();
-  const SurfaceSegments& segments = surfaces.segments();
   begin_attention(saliency, frame.depth_mm, frame.intrinsics, attention);
   if (step.cut) {
     memory_.clear();
@@ -44,6 +43,8 @@ void AttentionTracker::attend(const Frame& frame, const cv::Mat1f& saliency, con
   const bool first = !last_us_;
   const double seconds = first ? 0 : static_cast<double>(frame.timestamp_us - *last_us_) * 1e-6;
   last_us_ = frame.timestamp_us;
+  segments_ = surfaces.segments();
+  if (!first) patches_.cut(grid, frame.colour, segments_);
 
   // Evidence over time
   smooth_cells(saliency, scratch_, smooth_);
@@ -56,13 +57,14 @@ void AttentionTracker::attend(const Frame& frame, const cv::Mat1f& saliency, con
   const cv::Affine3d from_world = inverse(step.to_world);
   objects_.correct(step.world_correction);
   objects_.predict(grid, from_world);
-  shapes_.claim(grid, segments, step.to_world, seconds, objects_, memory_);
-  merging_.merge(grid, segments, seconds, objects_, memory_);
-  parts_.find(grid, segments, frame.colour, seconds, objects_);
+  shapes_.claim(grid, segments_, step.to_world, seconds, objects_, memory_);
+  merging_.merge(grid, segments_, seconds, objects_, memory_);
+  parts_.find(grid, segments_, frame.colour, seconds, objects_);
 
   // Order
-  proto_objects_.begin(grid, segments, frame.depth_mm, frame.intrinsics);
-  const AttentionOrder::View view{frame, saliency, grid, segments, step.to_world, from_world, seconds, first};
+  proto_objects_.begin(grid, segments_, frame.depth_mm, frame.intrinsics);
+  const AttentionOrder::View view{frame,         saliency,   grid,    segments_,
+                                  step.to_world, from_world, seconds, first};
   const auto& chosen = order_.choose(view, fixations_, shapes_, proto_objects_, objects_, memory_);
   objects_.learn(grid, step.to_world);
   judge(view, surfaces, chosen);

@@ -10,6 +10,7 @@
 #include "core/frame.hpp"
 #include "tracking/attention_order.hpp"
 #include "tracking/camera_motion.hpp"
+#include "tracking/colour_patches.hpp"
 #include "tracking/gaze.hpp"
 #include "tracking/object_memory.hpp"
 #include "tracking/object_merging.hpp"
@@ -71,6 +72,8 @@ class AttentionTracker {
   std::optional<std::int64_t> last_us_;
   std::vector<float> scratch_, smooth_, values_;
   std::vector<int> thing_cells_;
+  SurfaceSegments segments_;  // of the frame, and what colour cuts out of them
+  ColourPatches patches_;
   SurfaceMemory memory_;
   ObjectMemory objects_;
   ObjectShapes shapes_;

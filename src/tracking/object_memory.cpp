@@ -52,7 +52,7 @@ void ObjectMemory::predict(const SurfaceGrid& grid, const cv::Affine3d& from_wor
     object.cells.clear();
     object.seen_cells.clear();
     object.segment = object.anchor_cell = -1;
-    object.chosen = false;
+    object.chosen = object.passed_over = false;
     if (!object.alive) continue;
     look_at_surface(grid, from_world, object);
     look_at_anchor(grid, from_world, object);

@@ -137,13 +137,16 @@ void ObjectShapes::choose_segments(ObjectMemory& objects, double seconds) {
   for (TrackedObject& object : objects.slots()) {
     if (!is_visible(object)) continue;
     count_overlaps(object.cells);
-    choose_segment(object, seconds);
-    if (object.id != 0) add_claims(object, objects.owner_of(object) - 1);
+    const int own_segment = choose_segment(object, seconds);
+    if (object.id != 0) add_claims(object, objects.owner_of(object) - 1, own_segment);
   }
 }
 
-void ObjectShapes::add_claims(const TrackedObject& object, int slot) {
+// What was cut out by its colour is not a part of what it was cut out of.
+void ObjectShapes::add_claims(const TrackedObject& object, int slot, int own_segment) {
+  const bool own_is_cut = own_segment != SurfaceSegments::kNone && segments_->is_cut(own_segment);
   for (int segment = 0; segment < segments_->count(); ++segment) {
+    if (segment != own_segment && (segments_->is_cut(segment) || own_is_cut)) continue;
     const int shared = overlap_[at(segment)];
     Segment& facts = facts_[at(segment)];
     if (2 * shared > facts.cells) facts.part_of = slot;
@@ -156,7 +159,8 @@ void ObjectShapes::add_claims(const TrackedObject& object, int slot) {
 }
 
 // The segment under the anchor or, where that is hidden, the one that holds the most of the object's cells.
-void ObjectShapes::choose_segment(TrackedObject& object, double seconds) {
+// Gives it, taken or not.
+int ObjectShapes::choose_segment(TrackedObject& object, double seconds) {
   int segment = SurfaceSegments::kNone;
   if (object.anchor_cell >= 0)
     segment = segment_of(object.anchor_cell);
@@ -168,10 +172,11 @@ void ObjectShapes::choose_segment(TrackedObject& object, double seconds) {
   const int all = (whole ? facts_[at(segment)].cells : 0) + static_cast<int>(object.cells.size()) - shared;
   const bool same = whole && shared >= kSameShape * all;
   object.other_shape_s = same ? 0 : object.other_shape_s + seconds;
-  if (!same && object.other_shape_s <= kPatience_s) return;
+  if (!same && object.other_shape_s <= kPatience_s) return segment;
   object.other_shape_s = 0;
   object.disc = !whole;
   if (whole) object.segment = segment;
+  return segment;
 }
 
 // A segment that only one object claims is its shape.

@@ -54,8 +54,8 @@ class ObjectShapes {
   void follow_moved(ObjectMemory& objects, const cv::Affine3d& to_world, SurfaceMemory& surfaces);
   int segment_moved_to(const TrackedObject& object, const cv::Affine3d& to_world) const;
   void choose_segments(ObjectMemory& objects, double seconds);
-  void choose_segment(TrackedObject& object, double seconds);
-  void add_claims(const TrackedObject& object, int slot);
+  int choose_segment(TrackedObject& object, double seconds);
+  void add_claims(const TrackedObject& object, int slot, int own_segment);
   void take_segments(ObjectMemory& objects, SurfaceMemory& surfaces);
   void divide_segments(ObjectMemory& objects, SurfaceMemory& surfaces);
   void keep_anchors(ObjectMemory& objects, SurfaceMemory& surfaces);

@@ -42,6 +42,7 @@ struct TrackedObject {
   float mean_confidence = 0;
   float mean_saliency = 0;  ///< over time, of the map at its strongest place
   int times_judged = 0;     ///< over how many frames these means go
+  bool member = false;      ///< was in the order when it was last visible
   bool appeared = false;    ///< came into a place that was seen without it
 
   // How long something has spoken for a change that is made only if it persists
@@ -60,6 +61,8 @@ struct TrackedObject {
   int segment = -1;             ///< that its cells are; -1 = they are carried along
   bool disc = false;            ///< it has no segment: its cells are a disc around the anchor
   bool chosen = false;          ///< has its place in the order
+  float evidence = 0;           ///< largest value of its cells
+  bool passed_over = false;     ///< gave its place in the order to another one
   int point_cell = -1;          ///< where its point is seen: the anchor's cell, or one that stands in for it
 
   /// Another object is reported for it.

@@ -282,8 +282,8 @@ TEST_F(EvalTest, OverTimeWritesTableAndFigure) {
   };
   const ProgramResult outcome = run("one", "1");
   ASSERT_EQ(outcome.status, 0) << outcome.err;
-  for (const char* name :
-       {"held-30, n = 5", "first stays", "IDF1", "ids per place", "under the right id", "cuts"})
+  for (const char* name : {"held-30, n = 5", "first stays", "IDF1", "best IDF1, over time", "ids per place",
+                           "under the right id", "cuts"})
     EXPECT_THAT(outcome.out, HasSubstr(name));
   const json report = json::parse(text("one/over_time.json"));
   ASSERT_EQ(report["models"].size(), 2U);
@@ -293,6 +293,8 @@ TEST_F(EvalTest, OverTimeWritesTableAndFigure) {
   EXPECT_EQ(model["cuts"], 0);
   EXPECT_GT(model["held_1"]["5"].get<double>(), 0.8);
   EXPECT_EQ(model["hit_ratio"]["over_time"].size(), 10U);
+  EXPECT_GE(model["best_identity_f1"]["over_time"].get<double>(), model["identity_f1"].get<double>());
+  EXPECT_GT(model["best_identity_f1"]["frame_by_frame"].get<double>(), 0.5);
   const json& identity = model["identity"];
   EXPECT_EQ(identity["in_view"], identity["right_id"].get<int>() + identity["other_id"].get<int>() +
                                      identity["in_other"].get<int>() + identity["without_point"].get<int>());

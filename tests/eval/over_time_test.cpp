@@ -107,6 +107,18 @@ TEST(OverTime, WhereIdentityIsLost) {
                    2.0 * all.right / (all.in_view + all.right + all.other_id + all.more_points));
 }
 
+// Two of three objects have points in each frame, one of them a second point: what ids cost is not counted.
+TEST(OverTime, WithPerfectIdsOnlyTheChoiceOfPointsCounts) {
+  std::vector<WatchedFrame> frames;
+  for (int k = 0; k < 10; ++k)
+    frames.push_back(frame_with(
+        {at(3 * k + 1, 0, 7), at(3 * k + 2, 100, 7), at(3 * k + 3, 300, 8), at(99, 900, 0)}, {7, 8, 9}));
+  EXPECT_DOUBLE_EQ(*best_identity_f1(frames), 2.0 * 2 / (3 + 3));
+  EXPECT_EQ(measure_over_time(frames).best_identity_f1, best_identity_f1(frames));
+  EXPECT_LT(*measure_over_time(frames).identity_f1, 0.1) << "each id is right in one frame";
+  EXPECT_FALSE(best_identity_f1({frame_with({at(1, 0)})})) << "no object is in view";
+}
+
 // Two objects side by side, of which a mask covers one whole and a third of the other.
 TEST(WatchedFrame, KnowsWhichMaskCoversAnObject) {
   Frame frame;

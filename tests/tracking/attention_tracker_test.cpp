@@ -374,6 +374,121 @@ TEST(AttentionTracker, AnotherColourIsAnotherFixation) {
     EXPECT_EQ(attention.fixations.size(), 2U);
 }
 
+// A board that is large and of one colour, with a patch of another colour on it that has no edge in depth.
+TEST(AttentionTracker, WhatOnlyColourShowsHasItsOwnFixation) {
+  cv::setNumThreads(1);
+  const cv::Rect board(100, 80, 120, 72), patch(164, 92, 40, 40);
+  Frame frame;
+  frame.depth_mm = cv::Mat1f(240, 320, 3000.0F);
+  frame.depth_mm(board) = 2000;
+  frame.colour = cv::Mat3b(240, 320, cv::Vec3b(128, 128, 128));
+  frame.colour(board) = cv::Vec3b(60, 90, 130);
+  frame.colour(patch) = cv::Vec3b(60, 140, 60);
+  frame.intrinsics = Intrinsics::guess_for(frame.size());
+  cv::Mat1f map(240, 320, 0.0F);
+  for (int r = board.y; r < board.br().y; ++r)
+    for (int c = board.x; c < board.br().x; ++c)
+      for (const int middle : {120, 184})
+        map(r, c) += std::max(0.0F, 1 - 0.1F * static_cast<float>(std::hypot(r - 112, c - middle)));
+  FrameFollower follower;
+  AttentionTracker tracker(10, 0, {});
+  Attention attention;
+  for (int k = 0; k < 30; ++k) {
+    follower.start(frame);
+    follower.wait();
+    tracker.attend(frame, map, follower.surfaces(), follower.step(), attention);
+    if (k == 0) {
+      ASSERT_EQ(attention.fixations.size(), 1U) << "as in a single frame";
+    }
+    ++frame.index;
+    frame.timestamp_us += 33'000;
+  }
+  ASSERT_EQ(attention.fixations.size(), 2U);
+  for (const Fixation& fixation : attention.fixations) {
+    const bool on_patch = patch.contains({fixation.col, fixation.row});
+    EXPECT_NEAR(fixation.proto_object.pixels, on_patch ? patch.area() : board.area() - patch.area(), 300);
+  }
+  EXPECT_NE(attention.masks(112, 120), attention.masks(112, 184));
+}
+
+// Blocks before a wall, one more of them than fixations; the heights of the hills over them are given.
+class FullOrder {
+ public:
+  FullOrder() {
+    cv::setNumThreads(1);
+    frame_.depth_mm = cv::Mat1f(240, 320, 3000.0F);
+    for (int k = 0; k < 4; ++k) frame_.depth_mm(place(k)) = 1500;
+    frame_.intrinsics = Intrinsics::guess_for(frame_.size());
+  }
+
+  static cv::Rect place(int k) { return {20 + 76 * k, 100, 40, 40}; }
+
+  // Indices of the blocks that are fixated after some frames with these heights.
+  std::set<int> watch(const std::vector<float>& heights, int frames) {
+    cv::Mat1f map(240, 320, 0.0F);
+    for (int k = 0; k < 4; ++k) map(place(k)) = heights[static_cast<std::size_t>(k)];
+    for (int i = 0; i < frames; ++i) {
+      follower_.start(frame_);
+      follower_.wait();
+      tracker_.attend(frame_, map, follower_.surfaces(), follower_.step(), attention_);
+      ++frame_.index;
+      frame_.timestamp_us += 33'000;
+    }
+    std::set<int> fixated;
+    for (const Fixation& fixation : attention_.fixations)
+      for (int k = 0; k < 4; ++k)
+        if (place(k).contains({fixation.col, fixation.row})) fixated.insert(k);
+    return fixated;
+  }
+
+ private:
+  Frame frame_;
+  FrameFollower follower_;
+  AttentionTracker tracker_{3, 0, {}};
+  Attention attention_;
+};
+
+TEST(AttentionTracker, WhatIsReportedStaysUnlessANewcomerIsMuchStronger) {
+  FullOrder order;
+  EXPECT_EQ(order.watch({1, 0.9F, 0.5F, 0}, 5), (std::set<int>{0, 1, 2}));
+  EXPECT_EQ(order.watch({1, 0.9F, 0.5F, 4}, 120), (std::set<int>{0, 1, 2})) << "8 times the weakest";
+  EXPECT_EQ(order.watch({1, 0.9F, 0.5F, 9}, 120), (std::set<int>{0, 1, 3})) << "18 times; the weakest goes";
+}
+
+// A hill on the table top, `gap` pixels beside a block that stands on it.
+int fixations_beside_a_block(int gap, int frames) {
+  cv::setNumThreads(1);
+  const cv::Rect block(120, 100, 40, 40);
+  Frame frame;
+  frame.depth_mm = cv::Mat1f(240, 320, 1000.0F);
+  frame.depth_mm(block) = 900;
+  frame.intrinsics = Intrinsics::guess_for(frame.size());
+  cv::Mat1f map(240, 320, 0.0F);
+  map(block) = 1;
+  map(cv::Rect(block.br().x + gap, 116, 8, 8)) = 0.5F;
+  FrameFollower follower;
+  AttentionTracker tracker(10, 0, {});
+  Attention attention;
+  for (int k = 0; k < frames; ++k) {
+    follower.start(frame);
+    follower.wait();
+    tracker.attend(frame, map, follower.surfaces(), follower.step(), attention);
+    ++frame.index;
+    frame.timestamp_us += 33'000;
+  }
+  int beside = 0;
+  for (const Fixation& fixation : attention.fixations)
+    beside +=
+        fixation.row > 100 && fixation.row < 140 && fixation.col >= block.br().x + 4 && fixation.col < 260;
+  return beside;
+}
+
+TEST(AttentionTracker, WhatASupportingPlaneHasNextToAnObjectIsThatObjects) {
+  EXPECT_EQ(fixations_beside_a_block(40, 5), 1) << "far from it";
+  EXPECT_EQ(fixations_beside_a_block(0, 1), 1) << "a single frame";
+  EXPECT_EQ(fixations_beside_a_block(0, 5), 0);
+}
+
 TEST(AttentionTracker, NeedsAFixation) { EXPECT_THROW(AttentionTracker(0, 0, {}), std::invalid_argument); }
 
 }  // namespace
