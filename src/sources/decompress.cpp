@@ -19,14 +19,15 @@ constexpr std::size_t kStep = 1u << 20;
 
 std::runtime_error damaged() { return std::runtime_error("its compressed data are damaged"); }
 
-// Grows step by step. step(in, out) consumes from the front of `in`, gives the number of bytes that it wrote
-// to `out`, and sets `done` at the end of the data.
+// Grows step by step, to one byte more than the size at most, by which it is seen to be too small. step(in,
+// out) consumes from the front of `in`, gives the number of bytes that it wrote to `out`, and sets `done` at
+// the end of the data.
 template <typename Step>
 void decompress_stream(Bytes data, std::uint64_t size, std::vector<std::uint8_t>& out, Step step) {
   out.clear();
   for (bool done = false; !done;) {
     const std::size_t before = out.size(), left = data.size();
-    out.resize(before + kStep);
+    out.resize(before + std::min<std::uint64_t>(kStep, size - before + 1));
     const std::size_t written = step(data, std::span(out).subspan(before), done);
     out.resize(before + written);
     if (out.size() > size) throw std::runtime_error("its compressed data are longer than they claim");
