@@ -1,6 +1,8 @@
 // The SQLite database of ROS 2: tables topics (id, name, type, serialization_format) and messages (id,
 // topic_id, timestamp, data).
+#include <filesystem>
 #include <map>
+#include <optional>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -27,6 +29,27 @@ struct CloseBlob {
 };
 using Statement = std::unique_ptr<sqlite3_stmt, FinishStatement>;
 
+// The pages of a damaged database may refer to each other so that a table never ends. While this lives,
+// SQLite stops (SQLITE_INTERRUPT) after more instructions than reading a sound file of this size needs.
+class StepLimit {
+ public:
+  StepLimit(sqlite3* database, std::uintmax_t file_bytes)
+      : database_(database), left_((kFew + kPerByte * file_bytes) / kInterval) {
+    sqlite3_progress_handler(
+        database, kInterval, [](void* self) { return static_cast<StepLimit*>(self)->left_-- == 0 ? 1 : 0; },
+        this);
+  }
+  ~StepLimit() { sqlite3_progress_handler(database_, 0, nullptr, nullptr); }
+  StepLimit(const StepLimit&) = delete;
+  StepLimit& operator=(const StepLimit&) = delete;
+
+ private:
+  static constexpr int kInterval = 1000;
+  static constexpr std::uintmax_t kFew = 1'000'000, kPerByte = 20;
+  sqlite3* database_;
+  std::uintmax_t left_;
+};
+
 // The name of a file in a URI.
 std::string escaped(const std::string& path) {
   std::string text;
@@ -47,17 +70,26 @@ class Db3File final : public BagFile {
     sqlite3_limit(opened, SQLITE_LIMIT_LENGTH, static_cast<int>(kLargestMessage) + (1 << 20));
     sqlite3_db_config(opened, SQLITE_DBCONFIG_DEFENSIVE, 1, nullptr);
     sqlite3_db_config(opened, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, nullptr);
+    std::error_code ignored;
+    if (const auto bytes = std::filesystem::file_size(path, ignored); !ignored) bytes_ = bytes;
+    const StepLimit limit(opened, bytes_);
     read_topics();
   }
 
   void scan(const Visit& visit) override {
-    const Statement rows = prepare("SELECT id, topic_id, timestamp FROM messages ORDER BY id");
+    const StepLimit limit(database_.get(), bytes_);
+    const Statement rows = prepare("SELECT rowid, topic_id, timestamp FROM messages ORDER BY rowid");
     if (!rows) return problems_.push_back(reason());
     int code = SQLITE_OK;
+    std::optional<sqlite3_int64> last;
     while ((code = sqlite3_step(rows.get())) == SQLITE_ROW) {
+      const sqlite3_int64 row = sqlite3_column_int64(rows.get(), 0);
+      if (last && row <= *last)
+        return problems_.push_back("the database is damaged: its messages are not in their order");
+      last = row;
       const auto topic = numbers_.find(sqlite3_column_int64(rows.get(), 1));
       if (topic == numbers_.end() || !topics_[topic->second].type.starts_with("sensor_msgs/")) continue;
-      give(topic->second, sqlite3_column_int64(rows.get(), 0), sqlite3_column_int64(rows.get(), 2), visit);
+      give(topic->second, row, sqlite3_column_int64(rows.get(), 2), visit);
     }
     if (code != SQLITE_DONE) problems_.push_back(reason());
   }
@@ -79,6 +111,8 @@ class Db3File final : public BagFile {
   }
 
   std::string reason() const {
+    if (sqlite3_errcode(database_.get()) == SQLITE_INTERRUPT)
+      return "the database is damaged: reading it does not end";
     return fmt::format("the database is damaged or truncated: {}", sqlite3_errmsg(database_.get()));
   }
 
@@ -132,6 +166,7 @@ class Db3File final : public BagFile {
   }
 
   std::string path_;
+  std::uintmax_t bytes_ = 0;  // of the file
   std::unique_ptr<sqlite3, CloseDatabase> database_;
   std::map<std::int64_t, std::size_t> numbers_;  // of topics, by their ids
   std::vector<BagTopic> topics_;

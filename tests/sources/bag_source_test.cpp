@@ -3,6 +3,7 @@
 #include <random>
 
 #include <gmock/gmock.h>
+#include <sqlite3.h>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 
@@ -492,6 +493,47 @@ TEST_F(BagSourceTest, AFileOfWhichNoDepthIsLeftIsCalledDamaged) {
   fs::resize_file(folder_ / "a.bag", fs::file_size(folder_ / "a.bag") / 2);  // in its only chunk
   EXPECT_THAT(complaint(in("a.bag"), ExitStatus::unreadable),
               AllOf(HasSubstr("no depth is left in this damaged file; "), HasSubstr("truncated")));
+}
+
+// The pages of a table all lead to the first one.
+TEST_F(BagSourceTest, ADatabaseWhosePagesLeadInCirclesEnds) {
+  const MessageWriter writer(true);
+  std::vector<TestMessage> messages;
+  constexpr int kMessages = 100;
+  for (int k = 0; k < kMessages; ++k)
+    messages.push_back(writer.image(kDepth, kBegin_ns + 1'000'000 * k, depth_image(k), "16UC1"));
+  write_db3(folder_ / "a.db3", messages);
+  auto bytes = read_file(folder_ / "a.db3");
+  // The root of the table: a page of children, each with its number (4 bytes, the highest first) and a key.
+  constexpr std::size_t kPage = 4096, kHeader = 12;
+  const auto number = [&](std::size_t at) { return 256U * bytes[at] + bytes[at + 1]; };
+  std::size_t root = kPage;
+  while (root < bytes.size() && bytes[root] != 5) root += kPage;
+  ASSERT_LT(root, bytes.size());
+  const std::size_t children = number(root + 3);
+  ASSERT_GT(children, 5U);
+  const auto first = bytes.begin() + static_cast<std::ptrdiff_t>(root + number(root + kHeader));
+  for (std::size_t k = 1; k < children; ++k)
+    std::copy_n(first, 4, bytes.begin() + static_cast<std::ptrdiff_t>(root + number(root + kHeader + 2 * k)));
+  write_file(folder_ / "a.db3", bytes);
+  const auto source = open_source(in("a.db3"));
+  EXPECT_GT(*source->info().frame_count, 1);
+  EXPECT_LT(*source->info().frame_count, kMessages / 5);
+  EXPECT_THAT(source->info().notes, Contains(HasSubstr("its messages are not in their order")));
+}
+
+TEST_F(BagSourceTest, ADatabaseMadeSoThatItNeverEndsIsRefused) {
+  write_db3(folder_ / "a.db3", recording(true));
+  sqlite3* database = nullptr;
+  ASSERT_EQ(sqlite3_open((folder_ / "a.db3").c_str(), &database), SQLITE_OK);
+  EXPECT_EQ(
+      sqlite3_exec(database,
+                   "DROP TABLE messages; CREATE VIEW messages AS WITH RECURSIVE n(i) AS (SELECT 1 UNION ALL "
+                   "SELECT i + 1 FROM n) SELECT i AS rowid, 1 AS topic_id, 0 AS timestamp, 0 AS data FROM n",
+                   nullptr, nullptr, nullptr),
+      SQLITE_OK);
+  sqlite3_close(database);
+  EXPECT_THAT(complaint(in("a.db3"), ExitStatus::unreadable), HasSubstr("reading it does not end"));
 }
 
 // Every byte that lies, and every length cut: an error or frames, and no access outside of the memory.
