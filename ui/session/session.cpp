@@ -16,6 +16,11 @@ using Clock = std::chrono::steady_clock;
 
 constexpr int kSlots = 4;  // one each: captured, waiting, computed, shown
 
+ExitStatus status_of(const std::exception& error) {
+  const auto* ours = dynamic_cast<const Error*>(&error);
+  return ours != nullptr ? ours->status() : ExitStatus::failed;
+}
+
 }  // namespace
 
 Session::Session(Open open, std::function<void()> wake, ComputeRequest request)
@@ -111,16 +116,19 @@ void Session::work(const std::stop_token& token) {
       request = *std::exchange(to_open_, std::nullopt);
     }
     std::string failure;
+    ExitStatus failure_status = ExitStatus::done;
     try {
       replace_source(request);
     } catch (const std::exception& error) {
       failure = error.what();
+      failure_status = status_of(error);
     }
     change([&](SessionState& state) {
       if (!to_open_) state.opening.clear();
       if (failure.empty()) return;
       ++state.failed;
       state.failure = failure;
+      state.failure_status = failure_status;
     });
   }
   stop_running();
@@ -187,6 +195,7 @@ void Session::start(std::unique_ptr<FrameSource> source, const OpenRequest& requ
     state.opened = state_.opened + 1;
     state.failed = state_.failed;
     state.failure = state_.failure;
+    state.failure_status = state_.failure_status;
     state.uri = request.uri;
     state.source = info;
     state_ = std::move(state);
@@ -223,10 +232,12 @@ void Session::stop_running() {
 // The thread of one source, from its start to its end.
 void Session::run(Pipeline& pipeline) {
   std::string error;
+  ExitStatus error_status = ExitStatus::done;
   try {
     consume(pipeline);
   } catch (const std::exception& failure) {
     error = failure.what();
+    error_status = status_of(failure);
   }
   std::unique_ptr<Pipeline> ended;  // destroyed without the lock: it waits for its threads
   {
@@ -238,6 +249,7 @@ void Session::run(Pipeline& pipeline) {
     if (!replacing_) {
       state_.phase = SessionState::Phase::ended;
       state_.error = error;
+      state_.error_status = error_status;
     }
   }
   ended.reset();

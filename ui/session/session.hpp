@@ -10,6 +10,7 @@
 #include <thread>
 #include <vector>
 
+#include "core/error.hpp"
 #include "pipeline/pipeline.hpp"
 #include "pipeline/playback_controls.hpp"
 #include "ui/session/interactive_processor.hpp"
@@ -32,19 +33,21 @@ struct SessionState {
     ended,  ///< no more frames, or an error
   };
   Phase phase = Phase::idle;
-  std::string opening;      ///< the source that is being opened; empty = none
-  std::int64_t opened = 0;  ///< sources opened so far
-  std::int64_t failed = 0;  ///< sources that could not be opened so far
-  std::string failure;      ///< why the last of those could not be opened, one line
+  std::string opening;                           ///< the source that is being opened; empty = none
+  std::int64_t opened = 0;                       ///< sources opened so far
+  std::int64_t failed = 0;                       ///< sources that could not be opened so far
+  std::string failure;                           ///< why the last of those could not be opened, one line
+  ExitStatus failure_status = ExitStatus::done;  ///< of a program that ends for this reason
 
   // Of the source opened last:
   std::string uri;
   SourceInfo source;
   SourceState connection;  ///< while it is open
   Ledger ledger;
-  DurationHistogram latency;         ///< from capture to result, of this source
-  std::string error;                 ///< what ended it, one line; empty = no error
-  std::int64_t rejected_index = -1;  ///< the last rejected frame, and why
+  DurationHistogram latency;                   ///< from capture to result, of this source
+  std::string error;                           ///< what ended it, one line; empty = no error
+  ExitStatus error_status = ExitStatus::done;  ///< of a program that ends for this reason
+  std::int64_t rejected_index = -1;            ///< the last rejected frame, and why
   std::string rejected_reason;
 };
 

@@ -180,19 +180,23 @@ void Viewer::start_with_source() {
 void Viewer::poll_errors() {
   const SessionState& s = view_.source;
   std::string error;
+  ExitStatus status = ExitStatus::unreadable;
   if (s.failed != failed_) {
     failed_ = s.failed;
     error = s.failure;
+    status = s.failure_status;
   } else if (s.phase == SessionState::Phase::ended) {
     error = s.error;
-    if (error.empty() && s.ledger.processed == 0)
+    if (!error.empty())
+      status = s.error_status;
+    else if (s.ledger.processed == 0)
       error = "No frame could be used: " + s.uri +
               (s.rejected_reason.empty() ? "" : " (" + s.rejected_reason + ")");
     if (error == reported_error_) return;
     reported_error_ = error;
   }
   if (error.empty()) return;
-  if (!options_.screenshot.empty()) throw failed("no screenshot", error, "");
+  if (!options_.screenshot.empty()) throw Error(status, "no screenshot", error, "");
   view_.report(error);
 }
 

@@ -165,11 +165,13 @@ TEST_F(SessionTest, ASourceThatFailsIsReportedAndAnotherCanBeOpened) {
   session->open({.uri = "absent"});
   ASSERT_TRUE(wait_for([&] { return session->state().failed == 1; }));
   EXPECT_THAT(session->state().failure, HasSubstr("no such source"));
+  EXPECT_EQ(session->state().failure_status, ExitStatus::unreadable);
   EXPECT_EQ(session->state().phase, Phase::idle);
   EXPECT_EQ(session->state().opening, "");
   session->open({.uri = "breaks"});
   ASSERT_TRUE(wait_for([&] { return session->state().phase == Phase::ended; }));
   EXPECT_THAT(session->state().error, HasSubstr("the device is gone"));
+  EXPECT_EQ(session->state().error_status, ExitStatus::failed);
   EXPECT_EQ(session->state().ledger.in_flight(), 0);
   session->open({.uri = "ball"});
   ASSERT_TRUE(wait_for([&] { return session->state().opened == 2; }));

@@ -104,6 +104,14 @@ class ViewerTest : public XProgramTest {
     return now()["snapshot"].get<std::string>();
   }
 
+  // On standard error.
+  void expect_one_line_with(const std::string& text) const {
+    const auto bytes = read_file(in("err"));
+    const std::string err(bytes.begin(), bytes.end());
+    EXPECT_EQ(std::count(err.begin(), err.end(), '\n'), 1) << err;
+    EXPECT_NE(err.find(text), std::string::npos) << err;
+  }
+
   static double likeness(const cv::Mat3b& a, const cv::Mat3b& b) {
     cv::Mat1b grey_a, grey_b;
     cv::cvtColor(a, grey_a, cv::COLOR_BGR2GRAY);
@@ -360,10 +368,24 @@ TEST_F(ViewerTest, IdleItDrawsNothing) {
 
 TEST_F(ViewerTest, WithoutADisplayItSaysSoInOneLine) {
   EXPECT_EQ(run({kTable}, false), 1);
-  const auto bytes = read_file(in("err"));
-  const std::string err(bytes.begin(), bytes.end());
-  EXPECT_EQ(std::count(err.begin(), err.end(), '\n'), 1) << err;
-  EXPECT_NE(err.find("no display"), std::string::npos) << err;
+  expect_one_line_with("no display");
+}
+
+// As `run` with the same inputs.
+TEST_F(ViewerTest, AScreenshotOfWhatCannotBeReadEndsWithItsStatus) {
+  const auto screenshot = [&](const std::string& source) {
+    return run({source, "--screenshot", in("shot.png")});
+  };
+  EXPECT_EQ(screenshot(in("absent.oni")), 3);
+  expect_one_line_with("no screenshot: no such source");
+  EXPECT_EQ(screenshot("synthetic:nowhere"), 2);
+  std::filesystem::create_directory(in("damaged"));
+  auto png = encode_png(cv::Mat1w(120, 160, std::uint16_t{1000}));
+  png.resize(60);
+  write_file(in("damaged/0_depth.png"), png);
+  EXPECT_EQ(screenshot(in("damaged")), 3) << "every frame is rejected";
+  expect_one_line_with("not a valid PNG");
+  EXPECT_FALSE(std::filesystem::exists(in("shot.png")));
 }
 
 }  // namespace
