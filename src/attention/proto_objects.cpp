@@ -51,11 +51,11 @@ void ProtoObjects::set_rays(const Intrinsics& camera) {
   ray_y_.resize(at(grid_->rows()));
   const std::size_t side = at(kCell);
   for (std::size_t p = 0; p < side * side; ++p) {  // the pixels of a cell
-    const auto u = static_cast<double>(p % side), v = static_cast<double>(p / side);
+    const std::size_t u = p % side, v = p / side;
     for (std::size_t c = 0; c < ray_x_.size(); ++c)
-      ray_x_[c][p] = static_cast<float>((static_cast<double>(c * side) + u - camera.cx) / camera.fx);
+      ray_x_[c][p] = static_cast<float>((static_cast<double>(c * side + u) - camera.cx) / camera.fx);
     for (std::size_t r = 0; r < ray_y_.size(); ++r)
-      ray_y_[r][p] = static_cast<float>((static_cast<double>(r * side) + v - camera.cy) / camera.fy);
+      ray_y_[r][p] = static_cast<float>((static_cast<double>(r * side + v) - camera.cy) / camera.fy);
   }
 }
 
