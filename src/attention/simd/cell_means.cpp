@@ -16,8 +16,8 @@ namespace HWY_NAMESPACE {
 template <typename D>
 HWY_INLINE std::array<hn::VFromD<D>, kCellPx> load_pixels(D d, const PixelRows& rows, std::size_t v,
                                                           std::size_t cell) {
-  std::array<hn::VFromD<D>, kCellPx> pixel{hn::Undefined(d), hn::Undefined(d), hn::Undefined(d),
-                                           hn::Undefined(d)};
+  const auto zero = hn::Zero(d);
+  std::array<hn::VFromD<D>, kCellPx> pixel{zero, zero, zero, zero};
   hn::LoadInterleaved4(d, rows[v] + kCellPx * cell, pixel[0], pixel[1], pixel[2], pixel[3]);
   return pixel;
 }
