@@ -22,28 +22,9 @@ void ProtoObjects::begin(const SurfaceGrid& grid, const SurfaceSegments& segment
   grid_ = &grid;
   segments_ = &segments;
   depth_mm_ = &depth_mm;
-  list_cells_of_segments();
+  cells_of_segments_.list(segments);
+  cells_.reserve(grid.size());
   set_rays(camera);
-}
-
-// The cells sorted by segment s from cells_of_segment_[first_of_segment_[s + 1]] on, those of no segment
-// first.
-void ProtoObjects::list_cells_of_segments() {
-  first_of_segment_.assign(at(segments_->count() + 2), 0);
-  for (int segment : segments_->of_cell()) ++first_of_segment_[at(segment + 1)];
-  int sum = 0;
-  for (int& first : first_of_segment_) {
-    const int cells = first;
-    first = sum;
-    sum += cells;
-  }
-  cells_of_segment_.resize(grid_->size());
-  for (int i = 0; i < static_cast<int>(grid_->size()); ++i)
-    cells_of_segment_[at(first_of_segment_[at(segments_->of_cell()[at(i)] + 1)]++)] = i;
-  // Each entry has moved to the end of its segment, which is the beginning of the next.
-  std::move_backward(first_of_segment_.begin(), first_of_segment_.end() - 1, first_of_segment_.end());
-  first_of_segment_[0] = 0;
-  cells_.reserve(grid_->size());
 }
 
 void ProtoObjects::set_rays(const Intrinsics& camera) {
@@ -64,8 +45,8 @@ const std::vector<int>& ProtoObjects::around(int cell) {
             segment = segments_->of_cell()[at(cell)];
   const bool whole = segment != SurfaceSegments::kNone && !segments_->is_supporting_plane(segment);
   cells_.clear();
-  for (int k = first_of_segment_[at(segment + 1)]; k < first_of_segment_[at(segment + 2)]; ++k) {
-    const int i = cells_of_segment_[at(k)], down = i / cols - row, right = i % cols - col;
+  for (const int i : cells_of_segments_.of(segment)) {
+    const int down = i / cols - row, right = i % cols - col;
     if (whole || down * down + right * right <= kDiscCells * kDiscCells) cells_.push_back(i);
   }
   return cells_;

@@ -6,6 +6,7 @@
 #include <opencv2/core.hpp>
 
 #include "attention/attention.hpp"
+#include "attention/cells_of_segments.hpp"
 #include "attention/surface_grid.hpp"
 #include "attention/surface_segments.hpp"
 
@@ -34,7 +35,6 @@ class ProtoObjects {
   ProtoObject paint(const std::vector<int>& cells, cv::Mat1w& masks, int rank) const;
 
  private:
-  void list_cells_of_segments();
   void set_rays(const Intrinsics& camera);
 
   const SurfaceGrid* grid_ = nullptr;
@@ -43,7 +43,7 @@ class ProtoObjects {
   // One value for each pixel of a cell: x/z by column of cells, y/z by row of cells.
   using CellRays = std::array<float, static_cast<std::size_t>(SurfaceGrid::kCellPx) * SurfaceGrid::kCellPx>;
   std::vector<CellRays> ray_x_, ray_y_;
-  std::vector<int> first_of_segment_, cells_of_segment_;
+  CellsOfSegments cells_of_segments_;
   std::vector<int> cells_;
 };
 

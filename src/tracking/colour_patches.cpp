@@ -32,13 +32,13 @@ void ColourPatches::cut(const SurfaceGrid& grid, const cv::Mat3b& colour, Surfac
   if (colour.empty()) return;
   colour_.reserve(grid.size());
   patch_.reserve(grid.size());
-  list_cells(grid, segments);
+  cells_of_segments_.list(segments);
+  measure_areas(grid, segments);
   state_.assign(grid.size(), State::none);
   const int count = segments.count();
   for (int segment = 0; segment < count; ++segment) {
     if (segments.is_supporting_plane(segment) || area_mm2_[at(segment)] < kLeastArea_mm2) continue;
-    const std::span<const int> cells(cells_of_segment_.begin() + first_of_segment_[at(segment)],
-                                     cells_of_segment_.begin() + first_of_segment_[at(segment + 1)]);
+    const std::span<const int> cells = cells_of_segments_.of(segment);
     if (!mark_others(grid, colour, cells)) continue;
     for (const int seed : cells) {
       if (state_[at(seed)] != State::other) continue;
@@ -49,26 +49,15 @@ void ColourPatches::cut(const SurfaceGrid& grid, const cv::Mat3b& colour, Surfac
   }
 }
 
-void ColourPatches::list_cells(const SurfaceGrid& grid, const SurfaceSegments& segments) {
-  first_of_segment_.assign(at(segments.count() + 1), 0);
+void ColourPatches::measure_areas(const SurfaceGrid& grid, const SurfaceSegments& segments) {
   area_mm2_.assign(at(segments.count()), 0);
   const double per_square = 1 / (grid.camera().fx * grid.camera().fy);
   for (std::size_t i = 0; i < grid.size(); ++i) {
     const int segment = segments.of_cell()[i];
     if (segment == SurfaceSegments::kNone) continue;
     const double z = static_cast<double>(grid.depth_mm()[i]);
-    ++first_of_segment_[at(segment)];
     area_mm2_[at(segment)] += z * z * per_square;
   }
-  int sum = 0;
-  for (int& first : first_of_segment_) {
-    sum += first;
-    first = sum;  // the end of the segment; filled from there
-  }
-  cells_of_segment_.resize(grid.size());
-  for (int i = static_cast<int>(grid.size()) - 1; i >= 0; --i)
-    if (const int segment = segments.of_cell()[at(i)]; segment != SurfaceSegments::kNone)
-      cells_of_segment_[at(--first_of_segment_[at(segment)])] = i;
 }
 
 // The mean colour around the fullest bin; none if too few cells have it.

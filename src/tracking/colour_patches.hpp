@@ -6,6 +6,7 @@
 
 #include <opencv2/core.hpp>
 
+#include "attention/cells_of_segments.hpp"
 #include "attention/surface_grid.hpp"
 #include "attention/surface_segments.hpp"
 
@@ -33,7 +34,7 @@ class ColourPatches {
   // Of each cell: `other` are those of another colour that have not been looked at, `patch` those of patch_.
   enum class State : unsigned char { none, other, patch, done };
 
-  void list_cells(const SurfaceGrid& grid, const SurfaceSegments& segments);
+  void measure_areas(const SurfaceGrid& grid, const SurfaceSegments& segments);
   bool mark_others(const SurfaceGrid& grid, const cv::Mat3b& colour, std::span<const int> cells);
   std::optional<cv::Vec2f> own_colour();
   void collect(const SurfaceGrid& grid, int seed);
@@ -41,10 +42,10 @@ class ColourPatches {
 
   static constexpr int kBins = 32;  // of each of the two chromaticities
 
-  std::vector<int> first_of_segment_, cells_of_segment_;  // the cells by segment
-  std::vector<double> area_mm2_;                          // by segment
-  std::vector<cv::Vec2f> colour_;                         // of each cell of one segment: blue and red
-  std::vector<int> bins_;                                 // of these colours
+  CellsOfSegments cells_of_segments_;
+  std::vector<double> area_mm2_;   // by segment
+  std::vector<cv::Vec2f> colour_;  // of each cell of one segment: blue and red
+  std::vector<int> bins_;          // of these colours
   std::vector<State> state_;
   std::vector<int> patch_;
 };
