@@ -18,6 +18,7 @@ namespace {
 using Json = nlohmann::json;  // the order of keys does not matter
 
 constexpr std::uintmax_t kLargestManifest = 1u << 30;
+constexpr std::int64_t kMostFrames = 1'000'000'000'000'000;
 constexpr const char* kOther = "choose another --out, or leave out --resume to begin again";
 
 Error damaged(const fs::path& path) {
@@ -52,10 +53,13 @@ void check_same_run(const Json& earlier, const Json& present, const fs::path& fo
     if (const std::string key(spec.key); matters(spec)) check_same(before.at(key), now.at(key), key, folder);
 }
 
-std::int64_t frame_of(std::string_view line, const fs::path& path) {
-  const Json json = Json::parse(line, nullptr, false);
-  if (!json.is_object() || !json.contains("frame") || !json["frame"].is_number_integer()) throw damaged(path);
-  return json["frame"];
+// Of a line of fixations.jsonl or a rejected frame. Other numbers, which somebody else must have written, are
+// not converted: from some there is no way to an integer, and others would overflow.
+std::int64_t frame_of(const Json& json, const fs::path& path) {
+  if (!json.is_object() || !json.contains("frame")) throw damaged(path);
+  const Json& frame = json["frame"];
+  if (!frame.is_number_integer() || frame < 0 || frame > kMostFrames) throw damaged(path);
+  return frame.get<std::int64_t>();
 }
 
 struct Line {
@@ -73,7 +77,8 @@ std::optional<Line> keep_lines(const fs::path& path, std::int64_t unsure, std::i
   std::deque<Line> last;
   std::int64_t frame = -1;
   for (std::string_view line; reader.next(line);) {
-    if (const std::int64_t before = std::exchange(frame, frame_of(line, path)); frame <= before)
+    if (const std::int64_t before = std::exchange(frame, frame_of(Json::parse(line, nullptr, false), path));
+        frame <= before)
       throw damaged(path);
     last.push_back({frame, reader.position()});
     if (static_cast<std::int64_t>(last.size()) <= unsure) continue;
@@ -85,9 +90,9 @@ std::optional<Line> keep_lines(const fs::path& path, std::int64_t unsure, std::i
   return kept;
 }
 
-void add_rejected(const Json& manifest, std::int64_t last, ResumePoint& point) {
+void add_rejected(const Json& manifest, const fs::path& path, std::int64_t last, ResumePoint& point) {
   for (const Json& one : manifest.value("rejected", Json::array()))
-    if (const std::int64_t frame = one.at("frame"); frame <= last)
+    if (const std::int64_t frame = frame_of(one, path); frame <= last)
       point.rejected.emplace_back(frame, one.at("reason"));
 }
 
@@ -109,7 +114,7 @@ std::optional<ResumePoint> find_resume_point(const fs::path& folder, const RunRe
     if (!kept) return point;
     point.positions = (kept->frame - report.settings.start) / report.settings.every + 1;
     if (point.positions < point.frames) throw damaged(lines);
-    add_rejected(manifest, kept->frame, point);
+    add_rejected(manifest, path, kept->frame, point);
   } catch (const Json::exception&) {
     throw damaged(path);
   }

@@ -73,13 +73,21 @@ const Json& find_camera(const Json& calibration, std::string_view location) {
   throw std::runtime_error(fmt::format("no camera {}", location));
 }
 
+// A side of a sensor in pixels. Any other number could not be converted to int.
+int sensor_side(const Json& camera, const char* key) {
+  const Json& side = camera.at(key);
+  if (!side.is_number_integer() || side < 1 || side > 65536)
+    throw std::runtime_error(fmt::format("{} that is not an integer from 1 to 65536", key));
+  return side.get<int>();
+}
+
 LensCamera lens_camera(const Json& camera, cv::Size size, const Cut& cut) {
   const Json& intrinsics = camera.at("Intrinsics");
   const auto [cx, cy, fx, fy, k1, k2, k3, k4, k5, k6, unused1, unused2, p2, p1] =
       numbers<14>(intrinsics.at("ModelParameters"), "parameter of a camera");
-  const int width = camera.at("SensorWidth").get<int>(), height = camera.at("SensorHeight").get<int>();
+  const int width = sensor_side(camera, "SensorWidth"), height = sensor_side(camera, "SensorHeight");
   // Early devices were calibrated for the 16:9 middle of a 4:3 sensor.
-  const bool middle_only = static_cast<std::int64_t>(width) * 9 == static_cast<std::int64_t>(height) * 16;
+  const bool middle_only = width * 9 == height * 16;
   const double share = middle_only ? 0.75 : 1, above = middle_only ? 0.125 : 0;
   LensCamera result;
   result.size = size;

@@ -139,5 +139,24 @@ TEST_F(RunPartsTest, OnlyTheSameRunGoesOn) {
                {"run", kScenes, "--out", in("out"), "--resume", "--dump", "depth", "--levels", "0..2"});
 }
 
+// Numbers that are no frame of any run: some cannot be converted to an integer, others overflow.
+TEST_F(RunPartsTest, FramesThatCannotBeAreRefused) {
+  ASSERT_EQ(run_saccade(command("out")).status, 0);
+  json cut = manifest("out");
+  cut["status"] = "interrupted";
+  write_file(in("out/manifest.json"), cut.dump());
+  const std::string lines = text("out/fixations.jsonl");
+  for (const std::string bad : {"1e300", "-1", "0.5", "9223372036854775807", "18446744073709551615"}) {
+    write_file(in("out/fixations.jsonl"), lines + "{\"frame\":" + bad + "}\n{\"frame\":" + bad + "}\n");
+    expect_error(kUnreadable, "not of a run", command("out", {"--resume"}));
+    write_file(in("out/fixations.jsonl"), lines);
+    json other = cut;
+    other["rejected"] = {{{"frame", json::parse(bad)}, {"reason", "damaged"}}};
+    write_file(in("out/manifest.json"), other.dump());
+    expect_error(kUnreadable, "not of a run", command("out", {"--resume"}));
+    write_file(in("out/manifest.json"), cut.dump());
+  }
+}
+
 }  // namespace
 }  // namespace saccade

@@ -245,8 +245,13 @@ TEST_F(AzureRecordingTest, DepthNeedsNoColour) {
 
 TEST_F(AzureRecordingTest, CalibrationThatCannotBeUsedIsANote) {
   const std::string good = calibration_json();
+  const auto with_width = [&](const std::string& width) {
+    std::string bad = good;
+    return bad.replace(bad.find(":1024}"), 5, ":" + width);
+  };
   for (const std::string& bad :
-       {std::string(), std::string("not JSON"), good.substr(0, good.size() / 2), calibration_json("-1"),
+       {with_width("8e26"), with_width("0"), with_width("1024.5"), with_width("9223372036854775807"),
+        std::string(), std::string("not JSON"), good.substr(0, good.size() / 2), calibration_json("-1"),
         calibration_json("1e300"), calibration_json("\"wide\""), std::string(200'000, '['),
         std::string(R"({"CalibrationInformation":{"Cameras":[]}})"), std::string("{}")}) {
     SCOPED_TRACE(bad.substr(0, 80));
