@@ -8,7 +8,8 @@
 namespace saccade {
 namespace {
 
-constexpr int kReducedLevel = 2;  // 1/4 of the image
+constexpr int kReducedLevel = 2;        // 1/4 of the image
+constexpr int kLevelsOfSymmetry2d = 4;  // 2 to 5 of the image, which are 1 to 4 of the halved one
 
 void divide_by_maximum(cv::Mat1f& map) {
   double maximum = 0;
@@ -22,8 +23,8 @@ CombinedModel::CombinedModel(const ModelSettings& settings, WorkerPool& pool)
     : pool_(pool),
       first_level_(settings.first_level),
       symmetry3d_(settings, pool, settings.simd),
-      itti_("combined", false, pool),
-      symmetry2d_(make_symmetry2d(pool)) {}
+      itti_("combined", false, pool, 1),
+      symmetry2d_(make_symmetry2d(pool, kLevelsOfSymmetry2d)) {}
 
 // From the coarsest level down: sums_[l] holds the sum of the weighted levels from l on.
 void CombinedModel::weigh_levels(const cv::Mat1f& depth_mm) {
@@ -55,23 +56,22 @@ void CombinedModel::weigh_levels(const cv::Mat1f& depth_mm) {
   }
 }
 
-// The maps at 1/4 of the image; those of the image have never been larger than half of it. `itti` is of
-// itti_.map_level().
+// The maps at 1/4 of the image; those of the image have never been larger. `itti` is of level
+// itti_.map_level() of the halved image.
 void CombinedModel::reduce(const cv::Mat1f& itti, const cv::Mat1f& symmetry2d) {
   constexpr double kSigmaPx = 6.0 / (1 << kReducedLevel);
-  static_assert(MirrorPairModel::kFirstLevel + 1 == kReducedLevel);
+  static_assert(1 + MirrorPairModel::kFirstLevel == kReducedLevel);
   const auto reduce_one = [&](int i, int) {
     cv::Mat1f& reduced = i == 0 ? reduced3d_ : i == 1 ? reduced2d_ : reduced_itti_;
+    const cv::Mat1f& sharp = i == 1 ? symmetry2d : reduced;
     if (i == 0) {
       cv::pyrDown(sums_[0], half_);
       cv::pyrDown(half_, reduced);
-    } else if (i == 1) {
-      cv::pyrDown(symmetry2d, reduced);
-    } else {
-      reduced.create(level_size(sums_[0].size(), kReducedLevel));
-      upsample_rows(itti, itti_.map_level() - kReducedLevel, reduced, false, 0, reduced.rows);
+    } else if (i == 2) {
+      reduced.create(symmetry2d.size());
+      upsample_rows(itti, 1 + itti_.map_level() - kReducedLevel, reduced, false, 0, reduced.rows);
     }
-    cv::GaussianBlur(reduced, reduced, {}, kSigmaPx);
+    cv::GaussianBlur(sharp, reduced, {}, kSigmaPx);
     divide_by_maximum(reduced);
   };
   pool_.for_each(3, std::ref(reduce_one));
@@ -97,8 +97,9 @@ void CombinedModel::compute(const Frame& frame, RequestedOutputs outputs, Salien
   cv::Mat1f itti, symmetry2d;  // headers of the models' own maps
   {
     const StageTimer timer(times, Stage::symmetry);
-    itti = itti_.find_conspicuity(frame);
-    symmetry2d = symmetry2d_->find_symmetry(frame);
+    cv::pyrDown(colour_of(frame, "combined"), half_colour_);
+    itti = itti_.find_conspicuity(half_colour_);
+    symmetry2d = symmetry2d_->find_symmetry(half_colour_);
   }
   symmetry3d_.compute_levels(frame.depth_mm, frame.intrinsics, {.levels = true, .normals = outputs.normals},
                              maps3d_, times);

@@ -12,14 +12,14 @@
 
 namespace saccade {
 
-IttiModel::IttiModel(const char* name, bool orientation_only, WorkerPool& pool)
-    : name_(name), orientation_only_(orientation_only), pool_(pool) {}
+IttiModel::IttiModel(const char* name, bool orientation_only, WorkerPool& pool, int halvings)
+    : name_(name), orientation_only_(orientation_only), halvings_(halvings), pool_(pool) {}
 
 void IttiModel::resize(cv::Size size) {
   if (size == size_) return;
   size_ = size;
   constexpr int kSmallestMap = 24, kMostFiner = 2;
-  finer_ = 0;
+  finer_ = halvings_;
   const auto map_side = [&] {
     const cv::Size map = level_size(size, map_level());
     return std::min(map.width, map.height);
@@ -108,8 +108,7 @@ void IttiModel::add_channels() {
   }
 }
 
-const cv::Mat1f& IttiModel::find_conspicuity(const Frame& frame) {
-  const cv::Mat3b& colour = colour_of(frame, name_);
+const cv::Mat1f& IttiModel::find_conspicuity(const cv::Mat3b& colour) {
   resize(colour.size());
   split_colours(colour);
   const auto pyramid = [&](int i, int) { build_pyramid(channels_[static_cast<std::size_t>(i)].levels); };
@@ -128,7 +127,7 @@ const cv::Mat1f& IttiModel::find_conspicuity(const Frame& frame) {
 
 void IttiModel::compute(const Frame& frame, RequestedOutputs, SaliencyMaps& maps, StageTimes& times) {
   const StageTimer timer(times, Stage::symmetry);
-  find_conspicuity(frame);
+  find_conspicuity(colour_of(frame, name_));
   maps.levels.clear();
   maps.normals.release();
   maps.master.create(size_);

@@ -16,12 +16,13 @@ namespace saccade {
 /// README.md in this folder has the points in which it departs from the article. Needs colour.
 class IttiModel : public SaliencyModel {
  public:
-  IttiModel(const char* name, bool orientation_only, WorkerPool& pool);
+  /// `halvings`, 0 or 1: how often the image that find_conspicuity() is given was halved before. Its levels
+  /// are compared as those of the whole image would be.
+  IttiModel(const char* name, bool orientation_only, WorkerPool& pool, int halvings = 0);
   void compute(const Frame& frame, RequestedOutputs outputs, SaliencyMaps& maps, StageTimes& times) override;
 
-  /// The map before it is brought to the frame's size: of level map_level(), until the next call. Throws as
-  /// compute().
-  const cv::Mat1f& find_conspicuity(const Frame& frame);
+  /// The map before it is brought to the size of `colour`: of its level map_level(), until the next call.
+  const cv::Mat1f& find_conspicuity(const cv::Mat3b& colour);
   int map_level() const { return kMapLevel - finer_; }  ///< 2..4
 
  private:
@@ -47,9 +48,10 @@ class IttiModel : public SaliencyModel {
 
   const char* name_;
   bool orientation_only_;
+  int halvings_;
   WorkerPool& pool_;
   cv::Size size_;
-  int finer_ = 0;  ///< subtracted from all level numbers, for small images
+  int finer_ = 0;  ///< subtracted from all level numbers: halvings_ or, for small images, more
   std::array<cv::Mat1b, 3> bgr_;
   std::vector<float> row_maximum_;  ///< of the intensity
   std::array<ChannelState, kChannels> channels_;

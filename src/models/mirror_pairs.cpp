@@ -13,8 +13,7 @@ namespace saccade {
 namespace {
 
 constexpr int kOuter = 5, kInner = 2;  // half-widths
-constexpr int kLastLevel = 5;
-constexpr int kUnitsPerGrey = 256;  // of the 16-bit levels
+constexpr int kUnitsPerGrey = 256;     // of the 16-bit levels
 constexpr int kRowsOfBand = 8;
 
 }  // namespace
@@ -47,14 +46,15 @@ MirrorPairModel::Level::Level(cv::Size size, const PairMeasure& measure)
       moments(size, measure.planes()),
       score(size) {}
 
-MirrorPairModel::MirrorPairModel(const char* name, std::unique_ptr<PairMeasure> measure, WorkerPool& pool)
-    : name_(name), measure_(std::move(measure)), pool_(pool) {}
+MirrorPairModel::MirrorPairModel(const char* name, std::unique_ptr<PairMeasure> measure, WorkerPool& pool,
+                                 int last_level)
+    : name_(name), measure_(std::move(measure)), pool_(pool), last_level_(last_level) {}
 
 void MirrorPairModel::resize(cv::Size size) {
   if (size == size_) return;
   size_ = size;
   levels_.clear();
-  for (int l = kFirstLevel; l <= kLastLevel; ++l) levels_.emplace_back(level_size(size, l), *measure_);
+  for (int l = kFirstLevel; l <= last_level_; ++l) levels_.emplace_back(level_size(size, l), *measure_);
 }
 
 void MirrorPairModel::load(const cv::Mat3b& colour) {
@@ -81,8 +81,7 @@ void MirrorPairModel::for_bands(Job job) {
   pool_.for_each(bands, std::ref(band));
 }
 
-const cv::Mat1f& MirrorPairModel::find_symmetry(const Frame& frame) {
-  const cv::Mat3b& colour = colour_of(frame, name_);
+const cv::Mat1f& MirrorPairModel::find_symmetry(const cv::Mat3b& colour) {
   resize(colour.size());
   load(colour);
   for_bands([&](Level& level, int begin, int end) {
@@ -110,7 +109,7 @@ const cv::Mat1f& MirrorPairModel::find_symmetry(const Frame& frame) {
 
 void MirrorPairModel::compute(const Frame& frame, RequestedOutputs, SaliencyMaps& maps, StageTimes& times) {
   const StageTimer timer(times, Stage::symmetry);
-  const cv::Mat1f& score = find_symmetry(frame);
+  const cv::Mat1f& score = find_symmetry(colour_of(frame, name_));
   maps.levels.clear();
   maps.normals.release();
   maps.master.create(size_);

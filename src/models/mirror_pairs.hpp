@@ -56,12 +56,13 @@ class PairMeasure {
 /// at all. A level has at least one pixel a side, so images may have any size.
 class MirrorPairModel : public SaliencyModel {
  public:
-  MirrorPairModel(const char* name, std::unique_ptr<PairMeasure> measure, WorkerPool& pool);
+  MirrorPairModel(const char* name, std::unique_ptr<PairMeasure> measure, WorkerPool& pool,
+                  int last_level = 5);
   void compute(const Frame& frame, RequestedOutputs outputs, SaliencyMaps& maps, StageTimes& times) override;
 
-  /// The sum of the levels at level kFirstLevel, before it is brought to the frame's size; until the next
-  /// call. Throws as compute().
-  const cv::Mat1f& find_symmetry(const Frame& frame);
+  /// The sum of the levels kFirstLevel..last_level of `colour` at kFirstLevel, before it is brought to full
+  /// size; until the next call.
+  const cv::Mat1f& find_symmetry(const cv::Mat3b& colour);
   static constexpr int kFirstLevel = 1;
 
  private:
@@ -81,10 +82,11 @@ class MirrorPairModel : public SaliencyModel {
   const char* name_;
   std::unique_ptr<PairMeasure> measure_;
   WorkerPool& pool_;
+  int last_level_;
   std::vector<MirrorPair> pairs_ = mirror_pairs();
   cv::Size size_;
   cv::Mat full_8bit_, full_;
-  std::vector<Level> levels_;  // 1..5
+  std::vector<Level> levels_;  // from kFirstLevel
 };
 
 }  // namespace saccade

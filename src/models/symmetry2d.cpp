@@ -107,8 +107,8 @@ class ColourMeasure : public PairMeasure {
 
 }  // namespace
 
-std::unique_ptr<MirrorPairModel> make_symmetry2d(WorkerPool& pool) {
-  return std::make_unique<MirrorPairModel>("symmetry2d", std::make_unique<GreyMeasure>(), pool);
+std::unique_ptr<MirrorPairModel> make_symmetry2d(WorkerPool& pool, int last_level) {
+  return std::make_unique<MirrorPairModel>("symmetry2d", std::make_unique<GreyMeasure>(), pool, last_level);
 }
 
 std::unique_ptr<MirrorPairModel> make_colour_symmetry2d(WorkerPool& pool) {

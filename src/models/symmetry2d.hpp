@@ -10,7 +10,7 @@ namespace saccade {
 /// that are mirrored about the centre contributes
 ///   (1 - cos(ti + tj - 2 alpha)) (1 - cos(ti - tj)) log(1 + mi) log(1 + mj) weight
 /// with t, m the angle and length of the gradient. Needs a colour image, which may be grey.
-std::unique_ptr<MirrorPairModel> make_symmetry2d(WorkerPool& pool);
+std::unique_ptr<MirrorPairModel> make_symmetry2d(WorkerPool& pool, int last_level = 5);
 
 /// `colour_symmetry2d`: Heidemann's symmetry of colour gradients. Every two channels k, l contribute
 ///   cos^2(gi + gj) cos^2(gi) cos^2(gj) log(1 + mi) log(1 + mj) weight,   g = t - alpha,

@@ -4,6 +4,9 @@
 #include <opencv2/imgproc.hpp>
 
 #include "displays.hpp"
+#include "models/image.hpp"
+#include "models/itti.hpp"
+#include "models/symmetry2d.hpp"
 
 namespace saccade {
 namespace {
@@ -82,12 +85,6 @@ TEST(Combined, IsTheEquationOfItsMaps) {
       }
     noise_aware += full;
   }
-  const auto every = [](int step, const cv::Mat& full) {  // pixel of a row and column
-    cv::Mat1d map = as_double(full), few(full.rows / step, full.cols / step);
-    for (int r = 0; r < few.rows; ++r)
-      for (int c = 0; c < few.cols; ++c) few(r, c) = map(r * step, c * step);
-    return few;
-  };
   const auto halve = [](const cv::Mat1d& map) {
     cv::Mat1d half;
     cv::pyrDown(map, half);
@@ -100,9 +97,15 @@ TEST(Combined, IsTheEquationOfItsMaps) {
     return as_double(map, 1 / highest);
   };
   const cv::Mat1d depth_part = smooth(halve(halve(noise_aware)));
+  cv::Mat3b half_colour;
+  cv::pyrDown(frame.colour, half_colour);
+  IttiModel itti("itti", false, pool, 1);
+  cv::Mat1f of_itti(depth_part.size());
+  const cv::Mat1f& conspicuity = itti.find_conspicuity(half_colour);
+  upsample_rows(conspicuity, itti.map_level() - 1, of_itti, false, 0, of_itti.rows);
+  const cv::Mat1d of_symmetry2d = as_double(make_symmetry2d(pool, 4)->find_symmetry(half_colour));
   cv::Mat1d image;
-  cv::scaleAdd(smooth(halve(every(2, map_of("symmetry2d", frame)))), 0.25,
-               smooth(every(4, map_of("itti", frame))), image);
+  cv::scaleAdd(smooth(of_symmetry2d), 0.25, smooth(as_double(of_itti)), image);
   double highest = 0;
   cv::minMaxLoc(image, nullptr, &highest);
   image /= highest;
