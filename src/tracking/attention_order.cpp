@@ -275,7 +275,8 @@ int AttentionOrder::settle_anchor(TrackedObject& object, const ProtoObjects& pro
   double patience = kPatience_s;
   int other = best.cell;
   if (object.anchor_sight == AnchorSight::visible) {
-    if (best.value <= kBetterPlace * object.strength) {
+    if (best.value <= kBetterPlace * object.strength) other = cell_inside(object);
+    if (other == object.anchor_cell) {
       object.other_anchor_s = 0;
       return object.anchor_cell;
     }
@@ -293,6 +294,30 @@ int AttentionOrder::settle_anchor(TrackedObject& object, const ProtoObjects& pro
     object.other_anchor_s = 0;
   }
   return object.anchor_cell >= 0 ? object.anchor_cell : other;
+}
+
+// The nearest cell to the anchor that has the same segment on all four sides; the anchor's own if none is
+// within kPlaceCells, or if the segment is not what the object looked like before. At a border it is left to
+// the noise of the depth whether a pixel is the object's.
+int AttentionOrder::cell_inside(const TrackedObject& object) const {
+  const std::vector<int>& segments = view_->segments.of_cell();
+  const int own = segments[at(object.anchor_cell)], cols = view_->grid.cols();
+  if (object.disc || object.other_shape_s > 0 || own != object.segment) return object.anchor_cell;
+  const auto is_own = [&](int r, int c) {
+    return in_grid(view_->grid, r, c) && segments[at(r * cols + c)] == own;
+  };
+  const int row = object.anchor_cell / cols, col = object.anchor_cell % cols;
+  int nearest = kPlaceCells * kPlaceCells + 1, best = object.anchor_cell;
+  for (int r = row - kPlaceCells; r <= row + kPlaceCells; ++r)
+    for (int c = col - kPlaceCells; c <= col + kPlaceCells; ++c) {
+      const int away = (r - row) * (r - row) + (c - col) * (c - col);
+      if (away >= nearest || !is_own(r, c) || !is_own(r - 1, c) || !is_own(r + 1, c) || !is_own(r, c - 1) ||
+          !is_own(r, c + 1))
+        continue;
+      nearest = away;
+      best = r * cols + c;
+    }
+  return best;
 }
 
 // The cell of the object that is nearest to its hidden anchor; -1 if none is near.

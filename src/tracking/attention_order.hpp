@@ -26,7 +26,8 @@ namespace saccade {
 /// reported does not fall out because something that is hardly stronger came into view.
 ///
 /// An object is as strong as the cells around its anchor. The anchor moves only if another place of the
-/// object is better by kBetterPlace for kPatience_s, or if its own is hidden for so long, or out of view.
+/// object is better by kBetterPlace for kPatience_s, or if its own is hidden or at the object's border for so
+/// long, or out of view.
 /// Without memory (the first frame, or after a cut) the order, the cells and the points are those of
 /// ProtoSelector. Keeps its memory between frames. Thread safety: one call at a time per object.
 class AttentionOrder {
@@ -90,6 +91,7 @@ class AttentionOrder {
   Peak best_at_anchor(const TrackedObject& object) const;
   float strength(const TrackedObject& object) const;
   int settle_anchor(TrackedObject& object, const ProtoObjects& proto_objects) const;
+  int cell_inside(const TrackedObject& object) const;
   int stand_in(const TrackedObject& object) const;
   void move_anchor(TrackedObject& object, int cell, const ProtoObjects& proto_objects) const;
 

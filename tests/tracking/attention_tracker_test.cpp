@@ -10,6 +10,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <opencv2/imgproc.hpp>
 
 #include "attention/proto.hpp"
 #include "tracking/frame_follower.hpp"
@@ -113,6 +114,41 @@ TEST_F(AttentionTrackerTest, PlacesStayWhereTheyAreInTheWorld) {
       const auto [at, fresh] = places.emplace(fixation.id, place);
       EXPECT_LT(cv::norm(place - at->second), 25) << "id " << fixation.id << " frame " << k;
     }
+}
+
+// The map is highest at the top of each object, where noise decides whether a pixel is still the object's.
+TEST_F(AttentionTrackerTest, PlacesMoveAwayFromTheBorderOfTheirObject) {
+  watch({.size = {640, 480}}, 5);
+  const auto is_inside = [&](const Fixation& fixation) {
+    const cv::Mat1w& labels = frame_->truth.labels;
+    const cv::Rect around = cv::Rect(fixation.col - 2, fixation.row - 2, 5, 5) & cv::Rect({}, labels.size());
+    return label_of(fixation) != 0 && cv::countNonZero(labels(around) == label_of(fixation)) == 25;
+  };
+  std::map<int, cv::Point> first;
+  for (int k = 0; k < 45; ++k) {
+    frame_ = &scene_->frame(k);
+    cv::Mat1f map(frame_->size(), 0.0F);
+    for (int label = 1; label <= scene_->objects(); ++label) {
+      cv::Mat1b object;
+      cv::compare(frame_->truth.labels, label, object, cv::CMP_EQ);
+      const cv::Rect box = cv::boundingRect(object);
+      object.rowRange(std::min(object.rows, box.y + 3), object.rows).setTo(0);
+      map.setTo(1, object);
+    }
+    follower_->start(*frame_);
+    follower_->wait();
+    tracker_->attend(*frame_, map, follower_->surfaces(), follower_->step(), attention_);
+    for (const Fixation& fixation : attention_.fixations) {
+      if (k == 0) first.emplace(fixation.id, cv::Point(fixation.col, fixation.row));
+      if (k >= 20 && first.contains(fixation.id)) {
+        EXPECT_TRUE(is_inside(fixation)) << "id " << fixation.id << " frame " << k;
+        EXPECT_LE(cv::norm(cv::Point(fixation.col, fixation.row) - first[fixation.id]), 20);
+      }
+    }
+    if (k == 0) {
+      EXPECT_FALSE(std::ranges::all_of(attention_.fixations, is_inside));
+    }
+  }
 }
 
 TEST_F(AttentionTrackerTest, WhatIsTakenAwayIsGivenUpWithinThreeFrames) {
