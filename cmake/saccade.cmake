@@ -22,6 +22,10 @@ if(SACCADE_SANITIZE)
     -fsanitize=${SACCADE_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer
     $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)  # GCC warns falsely in instrumented code
   add_link_options(-fsanitize=${SACCADE_SANITIZE})
+  # Before a program that the build runs: what is known of libraries is not reported.
+  set(saccade_runs_with ${CMAKE_COMMAND} -E env
+    TSAN_OPTIONS=suppressions=${PROJECT_SOURCE_DIR}/tests/tsan.supp
+    LSAN_OPTIONS=suppressions=${PROJECT_SOURCE_DIR}/tests/lsan.supp:print_suppressions=0)
 endif()
 
 # OpenCV with its headers, which flood -Wconversion, as system headers. cmake/package.cmake exports the target without
