@@ -39,15 +39,22 @@ bool LineReader::read_more() {
   if (buffer_.size() > kLongestLine)
     throw unreadable("a line is too long", path_.string(), "is this the right file?");
   const std::uintmax_t from = position_ + buffer_.size();
-  const auto wanted = static_cast<std::size_t>(std::min<std::uintmax_t>(piece_, end_ - std::min(from, end_)));
-  if (wanted == 0) return false;
-  std::ifstream file(path_, std::ios::binary);
+  if (from >= end_) return false;
+  const auto expect = [&](bool holds) {
+    if (!holds)
+      throw unreadable("cannot read the file", path_.string(), "check the path and its permissions");
+  };
+  std::ifstream file(path_, std::ios::binary | std::ios::ate);
+  const std::streamoff size = file.is_open() ? std::streamoff{file.tellg()} : -1;
+  expect(size >= 0);
+  const std::uintmax_t end = std::min(end_, static_cast<std::uintmax_t>(size));
+  if (from >= end) return false;
+  const auto wanted = static_cast<std::size_t>(std::min<std::uintmax_t>(piece_, end - from));
   file.seekg(static_cast<std::streamoff>(from));
   const std::size_t before = buffer_.size();
   buffer_.resize(before + wanted);
   file.read(buffer_.data() + before, static_cast<std::streamsize>(wanted));
-  if (file.bad() || !(file.is_open() && (file || file.eof())))
-    throw unreadable("cannot read the file", path_.string(), "check the path and its permissions");
+  expect(!file.bad() && (file || file.eof()));
   buffer_.resize(before + static_cast<std::size_t>(file.gcount()));
   return buffer_.size() > before;
 }

@@ -9,7 +9,7 @@
 namespace saccade {
 namespace {
 
-constexpr std::size_t kChunk = 65536;
+constexpr std::uint64_t kLargestChunk = 65536;
 
 }  // namespace
 
@@ -22,16 +22,16 @@ OniWalker::OniWalker(const InputFile& file) : file_(file) {
     throw unreadable("unknown version " + to_string(header->version) + " of .oni", file.name(),
                      "versions 1.0.0.4 to 1.0.1.0 are known");
   header_ = *header;
+  chunk_.resize(static_cast<std::size_t>(std::min<std::uint64_t>(kLargestChunk, file.size())));
   zero_tail_ = std::max<std::uint64_t>(find_zero_tail(), kOniHeaderSize);
 }
 
 // The position where the zeros at the end begin.
-std::uint64_t OniWalker::find_zero_tail() const {
-  std::vector<std::uint8_t> chunk(kChunk);
+std::uint64_t OniWalker::find_zero_tail() {
   std::uint64_t end = file_.size();
   while (end > 0) {
-    const std::uint64_t begin = end > kChunk ? end - kChunk : 0;
-    const auto bytes = std::span(chunk).first(end - begin);
+    const std::uint64_t begin = end > chunk_.size() ? end - chunk_.size() : 0;
+    const auto bytes = std::span(chunk_).first(end - begin);
     const std::size_t got = file_.read(begin, bytes);
     std::fill(bytes.begin() + static_cast<std::ptrdiff_t>(got), bytes.end(), std::uint8_t{0});
     const auto last = std::find_if(bytes.rbegin(), bytes.rend(), [](std::uint8_t byte) { return byte != 0; });
@@ -90,15 +90,14 @@ std::optional<OniRecord> OniWalker::next() {
 // of the zero tail if there is none. Sets ahead_ to that record.
 std::uint64_t OniWalker::find_record(std::uint64_t from) {
   static constexpr char kMagic[4] = {'N', 'I', 'R', '\0'};
-  std::vector<std::uint8_t> chunk(kChunk);
   while (from < zero_tail_) {
-    const std::size_t got = file_.read(from, chunk);
+    const std::size_t got = file_.read(from, chunk_);
     if (got < sizeof kMagic) break;
-    const std::uint8_t* at = chunk.data();
-    const std::uint8_t* end = chunk.data() + got;
+    const std::uint8_t* at = chunk_.data();
+    const std::uint8_t* end = chunk_.data() + got;
     while ((at = static_cast<const std::uint8_t*>(
                 ::memmem(at, static_cast<std::size_t>(end - at), kMagic, sizeof kMagic))) != nullptr) {
-      const std::uint64_t position = from + static_cast<std::uint64_t>(at - chunk.data());
+      const std::uint64_t position = from + static_cast<std::uint64_t>(at - chunk_.data());
       const auto candidate = record_at(position);
       if (candidate && candidate->type >= OniRecordType::node_added_1004 &&
           candidate->type <= OniRecordType::seek_table && record_or_end_at(candidate->end())) {

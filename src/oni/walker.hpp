@@ -43,7 +43,7 @@ class OniWalker {
   std::optional<OniRecord> record_at(std::uint64_t position) const;
   bool record_or_end_at(std::uint64_t position);
   std::uint64_t find_record(std::uint64_t from);
-  std::uint64_t find_zero_tail() const;
+  std::uint64_t find_zero_tail();
   void add_gap(std::uint64_t begin, std::uint64_t end);
 
   const InputFile& file_;
@@ -53,6 +53,7 @@ class OniWalker {
   std::uint64_t zero_tail_ = 0;     // from here to the end there are only zeros
   std::uint64_t lost_bytes_ = 0;
   std::vector<OniGap> gaps_;
+  std::vector<std::uint8_t> chunk_;  // of the file, while something is searched
 };
 
 }  // namespace saccade

@@ -156,7 +156,8 @@ TEST_F(LiveTest, AfterALossOnlyAnotherSceneIsACut) {
     std::set<int> before, after;  // ids in the first and in the last frame
     for (std::string line; std::getline(lines, line);) {
       after.clear();
-      for (const json& fixation : json::parse(line)["fixations"]) after.insert(fixation["id"].get<int>());
+      const json frame = json::parse(line);
+      for (const json& fixation : frame["fixations"]) after.insert(fixation["id"].get<int>());
       if (before.empty()) before = after;
     }
     std::set<int> kept;

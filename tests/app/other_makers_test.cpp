@@ -61,7 +61,8 @@ TEST_F(OtherMakersTest, DevicesAndDoctorShowTheModule) {
   ASSERT_EQ(devices.size(), 1U);
   EXPECT_EQ(devices[0]["serial"], "VIRTUAL-1");
   EXPECT_THAT(devices[0]["depth_modes"], Contains("160x120@30"));
-  for (const json& module : doctor()["openni2"]["modules"]) {
+  const json modules = doctor()["openni2"]["modules"];
+  for (const json& module : modules) {
     EXPECT_EQ(module["problem"], "");
     EXPECT_EQ(module["named"], module["name"] == "acme") << module;
     EXPECT_NE(module["name"], "SaccadeVirtual");

@@ -1,7 +1,7 @@
 // How a frame divides among more workers than this machine has processors. The worker pool of this program is
 // one of its own, with the interface of core/worker_pool.hpp: it runs the chunks of every job one after the
-// other and keeps their times. From these, the time of the frame on W workers is that of what is not divided
-// (it stays serial) plus, for each job, that of its chunks when each goes to the worker that is free first.
+// other and keeps their times. From these, the time of the frame on W workers is that of the serial rest
+// plus, for each job, that of its chunks when each goes to the worker that is free first.
 // The time to wake threads, and what they take from each other in caches and memory, is not in it.
 //
 // Counters: the processor time of a frame on one worker, milliseconds; the share that is serial, percent, and
@@ -34,7 +34,7 @@ struct Job {
 };
 
 // The frame that is being computed. A stage's time is added when it ends, so a job belongs to the first stage
-// that ends after it, and so does the serial work behind the last job of a stage.
+// that ends after it, and so does the serial work after the last job of a stage.
 class FrameRecord {
  public:
   explicit FrameRecord(const StageTimes& times)
