@@ -32,6 +32,7 @@ class MetaReader {
     meta.depth_unit_mm = positive("depth_unit_mm", kLargestUnit_mm);
     if (!meta.depth_unit_mm) read_depth_scale(meta);
     meta.rate_hz = positive("rate_hz", 1e6);
+    if (meta.rate_hz && *meta.rate_hz < 1e-3) throw broken("rate_hz is below 0.001");
     if (const auto value = json_.find("sequence"); value != json_.end()) {
       if (!value->is_boolean()) throw broken("sequence is not true or false");
       meta.sequence = value->get<bool>();

@@ -27,7 +27,10 @@ namespace {
 constexpr const char* kHint = "the file may be truncated or not a video";
 constexpr const char* kBadChecksum = "the file is damaged here: its checksum does not fit";
 constexpr double kDefaultRateHz = 30;
-constexpr std::int64_t kMostLost = 1'000'000;  // positions; times of a damaged file may be anything
+// Times of a damaged file may be anything. Within these limits sums and differences of them do not overflow.
+constexpr std::int64_t kLatest_us = 1'000'000'000'000'000;  // 30 years
+constexpr double kLeastRateHz = 1e-3, kMostRateHz = 1e6;
+constexpr std::int64_t kMostLost = 1'000'000;  // positions
 
 thread_local VideoMessages* t_messages = nullptr;
 
@@ -72,6 +75,13 @@ void name_raw_grey(AVCodecParameters& codec) {
   if (!little && codec.codec_tag != MKTAG(16, 0, '1', 'Y')) return;
   codec.codec_id = AV_CODEC_ID_RAWVIDEO;
   codec.format = little ? AV_PIX_FMT_GRAY16LE : AV_PIX_FMT_GRAY16BE;
+}
+
+// A time of the container, at most kLatest_us from 0.
+std::int64_t to_us(std::int64_t time, AVRational unit) {
+  const std::int64_t us = av_rescale_q(time, unit, {1, 1'000'000});
+  if (us == INT64_MIN) return time < 0 ? -kLatest_us : kLatest_us;  // it does not fit
+  return std::clamp(us, -kLatest_us, kLatest_us);
 }
 
 }  // namespace
@@ -133,7 +143,7 @@ void VideoFile::choose(std::string_view title) {
   check_size();
   rate_hz_ = kDefaultRateHz;
   const AVRational rate = av_guess_frame_rate(format_.get(), stream_, nullptr);
-  if (const double hz = av_q2d(rate); rate.den != 0 && std::isfinite(hz) && hz > 0) rate_hz_ = hz;
+  if (const double hz = av_q2d(rate); rate.den != 0 && hz >= kLeastRateHz && hz <= kMostRateHz) rate_hz_ = hz;
 }
 
 AVStream* VideoFile::find_stream(std::string_view title) const {
@@ -178,18 +188,21 @@ bool VideoFile::read_packet() {
 
 std::int64_t VideoFile::time_of(const AVPacket& packet) const {
   const std::int64_t time = packet.pts == AV_NOPTS_VALUE ? packet.dts : packet.pts;
-  if (time == AV_NOPTS_VALUE) return std::llround(static_cast<double>(count_) * 1e6 / rate_hz_);
-  return time_us(time);
+  if (time != AV_NOPTS_VALUE) return time_us(time);
+  return std::llround(
+      std::min(static_cast<double>(count_) * 1e6 / rate_hz_, static_cast<double>(kLatest_us)));
 }
 
 std::int64_t VideoFile::start() const {
   return stream_->start_time == AV_NOPTS_VALUE ? 0 : stream_->start_time;
 }
 
-std::int64_t VideoFile::start_us() const { return av_rescale_q(start(), stream_->time_base, {1, 1'000'000}); }
+std::int64_t VideoFile::start_us() const { return to_us(start(), stream_->time_base); }
 
 std::int64_t VideoFile::time_us(std::int64_t timestamp) const {
-  return av_rescale_q(timestamp - start(), stream_->time_base, {1, 1'000'000});
+  std::int64_t since = 0;
+  if (__builtin_sub_overflow(timestamp, start(), &since)) since = timestamp < 0 ? INT64_MIN : INT64_MAX;
+  return to_us(since, stream_->time_base);
 }
 
 std::vector<std::string> VideoFile::titles() const {
@@ -219,17 +232,16 @@ double VideoFile::rotation_degrees() const {
 // The number of images that would fit between the last one and `time_us`.
 std::int64_t VideoFile::missing_before(std::int64_t time_us) const {
   const double periods = static_cast<double>(time_us - last_us_) * rate_hz_ / 1e6;
-  return last_us_ < 0 || !(periods > 1.5)
-             ? 0
-             : std::min(static_cast<std::int64_t>(std::llround(periods)) - 1, kMostLost);
+  if (last_us_ < 0 || !(periods > 1.5)) return 0;
+  return std::llround(std::min(periods, 1.0 + kMostLost)) - 1;
 }
 
 // The end that the container announces; std::nullopt if it announces none, or that of other streams too.
 std::optional<std::int64_t> VideoFile::end_us() const {
   if (stream_->duration != AV_NOPTS_VALUE && stream_->duration > 0)
-    return av_rescale_q(stream_->duration, stream_->time_base, {1, 1'000'000});
+    return to_us(stream_->duration, stream_->time_base);
   if (format_->nb_streams == 1 && format_->duration != AV_NOPTS_VALUE && format_->duration > 0)
-    return av_rescale(format_->duration, 1'000'000, AV_TIME_BASE);
+    return to_us(format_->duration, AV_TIME_BASE_Q);
   return std::nullopt;
 }
 
@@ -274,7 +286,7 @@ std::optional<VideoPacket> VideoFile::next() {
   if (lost_ > 0) {
     --lost_;
     ++count_;
-    last_us_ += std::llround(1e6 / rate_hz_);
+    last_us_ = std::min<std::int64_t>(last_us_ + std::llround(1e6 / rate_hz_), kLatest_us);
     return VideoPacket{nullptr, last_us_, "the image is lost: " + reason_};
   }
   if (!waiting_) return std::nullopt;

@@ -174,6 +174,23 @@ TEST_F(FolderSourceTest, DepthInAWrongUnitIsReported) {
               ElementsAre(HasSubstr("nothing beyond 65.5 m can be used")));
 }
 
+// Times whose difference would overflow, and a rate whose period would.
+TEST_F(FolderSourceTest, ImpossibleTimesAreRefused) {
+  for (const int i : {0, 1}) put_depth(std::to_string(i) + "_depth.png", 1000 + i);
+  for (const char* time : {"-9223372036854775808", "9223372036854775807", "1000000000000001"}) {
+    put_text("times.txt", std::string("0 0\n1 ") + time + "\n");
+    EXPECT_THROW(open_source(folder_.string()), Error) << time;
+  }
+  put_text("times.txt", "0 -1000000000000000\n1 1000000000000000\n");
+  EXPECT_NO_THROW(open_source(folder_.string()));
+  for (const char* rate : {"1e-300", "0.0009", "0", "-1", "1e7"}) {
+    put_text("meta.json", std::string(R"({"rate_hz": )") + rate + "}");
+    EXPECT_THROW(open_source(folder_.string()), Error) << rate;
+  }
+  put_text("meta.json", R"({"rate_hz": 0.001})");
+  EXPECT_EQ(open_source(folder_.string())->info().rate_hz, 0.001);
+}
+
 TEST_F(FolderSourceTest, TimesAreThoseOfTheList) {
   for (const int i : {0, 1, 3}) put_depth(std::to_string(i) + "_depth.png", 1000 + i);
   put_text("times.txt", "# frame microseconds\n0 -5\n3 900000\n1 70\n");

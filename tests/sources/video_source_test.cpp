@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <array>
+#include <cstdlib>
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -219,6 +221,52 @@ TEST_F(VideoSourceTest, UncompressedGray16IsExact) {
   }
   write_raw_matroska(path("r.mkv"), kSize, 50, packets);
   expect_exact(*open_source(path("r.mkv").string()));
+}
+
+// Times can be any numbers. Nothing overflows, and none is farther away than any sensor has existed.
+TEST_F(VideoSourceTest, ImpossibleTimesAreLimited) {
+  std::vector<std::vector<std::uint8_t>> packets;
+  for (int k = 0; k < 4; ++k) {
+    const cv::Mat1w depth = depth_image(k);
+    packets.emplace_back(depth.data, depth.data + 2 * depth.total());
+  }
+  write_raw_matroska(path("good.mkv"), kSize, 50, packets);
+  const auto good = read_file(path("good.mkv"));
+  const auto big_endian = [](std::uint64_t value) {
+    std::array<std::uint8_t, 8> bytes{};
+    for (int i = 0; i < 8; ++i)
+      bytes[static_cast<std::size_t>(7 - i)] = static_cast<std::uint8_t>(value >> (8 * i));
+    return bytes;
+  };
+  // The nanoseconds of the file's unit, and the times of the second and of the third cluster in it.
+  for (const std::uint64_t field : {1'000'000, 50, 100})
+    for (const std::uint64_t value : {~std::uint64_t{0} >> 1, ~std::uint64_t{0}, std::uint64_t{1} << 63,
+                                      (std::uint64_t{1} << 62) + 12345, std::uint64_t{1} << 40}) {
+      SCOPED_TRACE(std::to_string(field) + " becomes " + std::to_string(value));
+      auto bad = good;
+      const auto before = big_endian(field), after = big_endian(value);
+      const auto at = std::search(bad.begin(), bad.end(), before.begin(), before.end());
+      ASSERT_NE(at, bad.end());
+      std::copy(after.begin(), after.end(), at);
+      write_file(path("bad.mkv"), bad);
+      std::unique_ptr<FrameSource> source;
+      try {
+        source = open_source(path("bad.mkv").string());
+      } catch (const Error& error) {
+        EXPECT_EQ(error.status(), ExitStatus::unreadable);
+        continue;
+      }
+      EXPECT_GE(source->info().rate_hz, 1e-3);
+      EXPECT_LE(source->info().rate_hz, 1e6);
+      Frame frame;
+      for (int k = 0; k < 10; ++k) {
+        const ReadStatus status = source->read(frame, kNoWait).status;
+        if (status == ReadStatus::end) break;
+        if (status == ReadStatus::frame) {
+          EXPECT_LE(std::abs(frame.timestamp_us), 1'000'000'000'000'000);
+        }
+      }
+    }
 }
 
 TEST_F(VideoSourceTest, PixelsThatAreTooManyOrTooFewAreRejected) {
