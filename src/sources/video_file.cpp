@@ -30,7 +30,9 @@ constexpr double kDefaultRateHz = 30;
 // Times of a damaged file may be anything. Within these limits sums and differences of them do not overflow.
 constexpr std::int64_t kLatest_us = 1'000'000'000'000'000;  // 30 years
 constexpr double kLeastRateHz = 1e-3, kMostRateHz = 1e6;
-constexpr std::int64_t kMostLost = 1'000'000;  // positions
+// How many positions may be reported as lost: not many more than the file could hold if all of its bytes were
+// images, since each of them takes memory.
+constexpr std::int64_t kAlwaysLost = 1000, kMostLost = 1'000'000, kLeastImageBytes = 8;
 
 thread_local VideoMessages* t_messages = nullptr;
 
@@ -107,6 +109,11 @@ VideoFile::VideoFile(const fs::path& path, std::string_view title)
   if (!packet_) throw std::bad_alloc();
   open();
   choose(title);
+  std::error_code code;
+  const std::uintmax_t bytes = fs::file_size(path_, code);
+  const auto images =
+      static_cast<std::int64_t>(code ? 0 : std::min<std::uintmax_t>(bytes, INT64_MAX)) / kLeastImageBytes;
+  may_be_lost_ = std::clamp(images, kAlwaysLost, kMostLost);
 }
 
 void VideoFile::open() {
@@ -250,7 +257,12 @@ void VideoFile::look_for_gap() {
   damaged_ = checksums_.damaged_at(packet_->pos);
   const std::int64_t before = std::exchange(damaged_clusters_, checksums_.damaged_clusters());
   if (damaged_clusters_ != before && reason_.empty()) reason_ = kBadChecksum;
-  if (!reason_.empty()) lost_ = missing_before(time_of(*packet_));
+  if (!reason_.empty()) lose(missing_before(time_of(*packet_)));
+}
+
+void VideoFile::lose(std::int64_t images) {
+  lost_ = std::min(images, may_be_lost_);
+  may_be_lost_ -= lost_;
 }
 
 // By the number of images that the container announces, or else by its end: unless the images come at
@@ -262,7 +274,7 @@ std::int64_t VideoFile::lost_at_end() const {
 }
 
 void VideoFile::look_for_lost_end() {
-  lost_ = lost_at_end();
+  lose(lost_at_end());
   if (lost_ == 0 && !reason_.empty()) lost_ = 1;
   if (reason_.empty()) reason_ = "the file is truncated";
 }

@@ -113,6 +113,7 @@ class VideoFile {
   std::int64_t missing_before(std::int64_t time_us) const;
   std::optional<std::int64_t> end_us() const;
   void look_for_gap();
+  void lose(std::int64_t images);
   std::int64_t lost_at_end() const;
   void look_for_lost_end();
 
@@ -129,6 +130,7 @@ class VideoFile {
   std::int64_t last_us_ = -1;          // the latest of the positions
   std::int64_t longest_us_ = 0;        // the greatest distance of two sound ones
   std::int64_t lost_ = 0;              // positions to give before the packet that was read, or the end
+  std::int64_t may_be_lost_ = 0;       // how many more are reported
   bool waiting_ = false;               // a packet was read and is to be given after the lost ones
   bool at_end_ = false;
   std::string reason_;  // why images are lost

@@ -169,6 +169,26 @@ TEST_F(VideoSourceTest, ImagesThatATruncatedFileHasLostAreRejected) {
   EXPECT_GE(rejected_of(read_all(*open_source(path("p.mkv").string()))), 1);
 }
 
+// A header that announces years: a small file cannot have lost so many, and each would take memory.
+TEST_F(VideoSourceTest, ASmallFileHasNotLostAMillionImages) {
+  write_ffv1("f_depth.mkv");
+  auto content = read_file(path("f_depth.mkv"));
+  const std::array<std::uint8_t, 3> duration = {0x44, 0x89, 0x88};  // of 8 bytes
+  const auto at = std::search(content.begin(), content.end(), duration.begin(), duration.end());
+  ASSERT_NE(at, content.end());
+  const std::array<std::uint8_t, 8> years = {0x42, 0x6D, 0x1A, 0x94, 0xA2, 0, 0, 0};  // 1e12 ms
+  std::copy(years.begin(), years.end(), at + duration.size());
+  write_file(path("f_depth.mkv"), content);
+  cut("f_depth.mkv", 0.7);
+  const auto source = open_source(path("f_depth.mkv").string());
+  Frame frame;
+  int rejected = 0;
+  for (ReadStatus status; (status = source->read(frame, kNoWait).status) != ReadStatus::end;)
+    rejected += status == ReadStatus::rejected;
+  EXPECT_GE(rejected, 100);
+  EXPECT_LE(rejected, 2000);
+}
+
 TEST_F(VideoSourceTest, DamagedFfv1IsRejectedAndNeverGivesOtherPixels) {
   // The checksums of the codec name the image; those of the container a few.
   for (const Ffv1Options& options :
