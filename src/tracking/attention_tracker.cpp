@@ -78,12 +78,14 @@ void AttentionTracker::attend(const Frame& frame, const cv::Mat1f& saliency, con
 // The means go over the same time as that of the evidence.
 void AttentionTracker::judge(const AttentionOrder::View& view, const FrameSurfaces& surfaces,
                              const std::vector<std::size_t>& chosen) {
-  float strongest = 0;
+  // The cell that would win alone, as the saliency of proto is relative to its first. That of the first
+  // object is no measure, since its point stays where it is while the map changes.
+  const auto winner = std::max_element(memory_.mean().begin(), memory_.mean().end());
+  const float strongest = smooth_[static_cast<std::size_t>(winner - memory_.mean().begin())];
   const auto least = static_cast<float>(SurfaceMemory::share_of(view.seconds));
   for (const std::size_t slot : chosen) {
     TrackedObject& object = objects_.slots()[slot];
     const float saliency = smooth_[static_cast<std::size_t>(object.point_cell)];
-    if (slot == chosen.front()) strongest = saliency;
     const float relative = strongest > 0 ? saliency / strongest : 1;
     const float share = std::max(1 / static_cast<float>(++object.times_judged), least);
     object.mean_saliency += share * (saliency_of(view, object) - object.mean_saliency);

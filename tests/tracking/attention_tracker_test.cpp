@@ -151,6 +151,33 @@ TEST_F(AttentionTrackerTest, PlacesMoveAwayFromTheBorderOfTheirObject) {
   }
 }
 
+// The saliency at the first object's point is no measure for the others: the point stays while the map
+// changes.
+TEST_F(AttentionTrackerTest, ConfidenceDoesNotRiseBecauseTheMapFallsAtTheFirstPoint) {
+  watch({.size = {640, 480}}, 5);
+  std::map<int, float> before;
+  cv::Point first;
+  for (int k = 0; k < 12; ++k) {
+    frame_ = &scene_->frame(k);
+    cv::Mat1f map(frame_->size(), 0.0F);
+    for (int r = 0; r < map.rows; ++r)
+      for (int c = 0; c < map.cols; ++c) {
+        const int label = frame_->truth.labels(r, c);
+        map(r, c) = label == 0 ? 0 : label == scene_->objects() ? 1 : 0.012F;
+        if (k > 0 && std::hypot(r - first.y, c - first.x) < 14) map(r, c) *= 0.01F;
+      }
+    follower_->start(*frame_);
+    follower_->wait();
+    tracker_->attend(*frame_, map, follower_->surfaces(), follower_->step(), attention_);
+    if (k == 0) first = {attention_.fixations.front().col, attention_.fixations.front().row};
+    for (const Fixation& fixation : attention_.fixations) {
+      const auto [at, fresh] = before.emplace(fixation.id, *fixation.confidence);
+      EXPECT_LT(*fixation.confidence, at->second + 0.02F) << "id " << fixation.id << " frame " << k;
+    }
+  }
+  EXPECT_GE(before.size(), 3U);
+}
+
 TEST_F(AttentionTrackerTest, WhatIsTakenAwayIsGivenUpWithinThreeFrames) {
   watch({.event = scene::EventKind::take});
   for (int k = 0; k < 30; ++k) see(k);
