@@ -12,8 +12,6 @@
 namespace saccade {
 namespace {
 
-constexpr std::int64_t kFarthest_us = 1'000'000'000'000'000;  // so that differences do not overflow
-
 // Reads a number and the blanks after it from the front of `text`; false if there is none.
 bool take_number(std::string_view& text, std::int64_t& number) {
   const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), number);
@@ -40,7 +38,7 @@ std::map<std::int64_t, std::int64_t> read_times(const std::filesystem::path& fil
     if (!take_number(line, frame) || !take_number(line, time_us) || !line.empty())
       throw unreadable("not a 'number microseconds' line", fmt::format("{}:{}", file.string(), number),
                        "fix or delete the file; without it, frames have 30 a second");
-    if (time_us < -kFarthest_us || time_us > kFarthest_us)
+    if (time_us < -kFarthestTime_us || time_us > kFarthestTime_us)
       throw unreadable("a time more than 30 years from 0", fmt::format("{}:{}", file.string(), number),
                        "fix or delete the file; without it, frames have 30 a second");
     times[frame] = time_us;

@@ -19,6 +19,7 @@ extern "C" {
 
 #include "core/error.hpp"
 #include "core/image_size.hpp"
+#include "sources/times_file.hpp"
 
 namespace saccade {
 namespace fs = std::filesystem;
@@ -27,8 +28,7 @@ namespace {
 constexpr const char* kHint = "the file may be truncated or not a video";
 constexpr const char* kBadChecksum = "the file is damaged here: its checksum does not fit";
 constexpr double kDefaultRateHz = 30;
-// Times of a damaged file may be anything. Within these limits sums and differences of them do not overflow.
-constexpr std::int64_t kLatest_us = 1'000'000'000'000'000;  // 30 years
+// Rates and times of a damaged file may be anything.
 constexpr double kLeastRateHz = 1e-3, kMostRateHz = 1e6;
 // How many positions may be reported as lost: not many more than the file could hold if all of its bytes were
 // images, since each of them takes memory.
@@ -79,11 +79,11 @@ void name_raw_grey(AVCodecParameters& codec) {
   codec.format = little ? AV_PIX_FMT_GRAY16LE : AV_PIX_FMT_GRAY16BE;
 }
 
-// A time of the container, at most kLatest_us from 0.
+// A time of the container, at most kFarthestTime_us from 0.
 std::int64_t to_us(std::int64_t time, AVRational unit) {
   const std::int64_t us = av_rescale_q(time, unit, {1, 1'000'000});
-  if (us == INT64_MIN) return time < 0 ? -kLatest_us : kLatest_us;  // it does not fit
-  return std::clamp(us, -kLatest_us, kLatest_us);
+  if (us == INT64_MIN) return time < 0 ? -kFarthestTime_us : kFarthestTime_us;  // it does not fit
+  return std::clamp(us, -kFarthestTime_us, kFarthestTime_us);
 }
 
 }  // namespace
@@ -197,7 +197,7 @@ std::int64_t VideoFile::time_of(const AVPacket& packet) const {
   const std::int64_t time = packet.pts == AV_NOPTS_VALUE ? packet.dts : packet.pts;
   if (time != AV_NOPTS_VALUE) return time_us(time);
   return std::llround(
-      std::min(static_cast<double>(count_) * 1e6 / rate_hz_, static_cast<double>(kLatest_us)));
+      std::min(static_cast<double>(count_) * 1e6 / rate_hz_, static_cast<double>(kFarthestTime_us)));
 }
 
 std::int64_t VideoFile::start() const {
@@ -298,7 +298,7 @@ std::optional<VideoPacket> VideoFile::next() {
   if (lost_ > 0) {
     --lost_;
     ++count_;
-    last_us_ = std::min<std::int64_t>(last_us_ + std::llround(1e6 / rate_hz_), kLatest_us);
+    last_us_ = std::min<std::int64_t>(last_us_ + std::llround(1e6 / rate_hz_), kFarthestTime_us);
     return VideoPacket{nullptr, last_us_, "the image is lost: " + reason_};
   }
   if (!waiting_) return std::nullopt;
