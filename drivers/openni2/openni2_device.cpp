@@ -16,7 +16,7 @@
 namespace saccade {
 namespace {
 
-constexpr const char* kHint = "saccade doctor looks for the reason";
+constexpr const char* kDoctorHint = "saccade doctor looks for the reason";
 
 // Whether a frame's memory holds an image of this size.
 Outcome check_memory(const openni::VideoFrameRef& frame, cv::Size size, int bytes_per_pixel) {
@@ -75,9 +75,10 @@ OpenNi2Device::OpenNi2Device(const DeviceIdentity& identity, const SensorSetting
                              const SensorValues& wanted)
     : identity_(identity), streams_(std::make_unique<Streams>()) {
   if (streams_->device.open(identity_.uri.c_str()) != openni::STATUS_OK)
-    throw failed(fmt::format("the device cannot be opened: {}", openni2_complaint()), identity_.uri, kHint);
+    throw failed(fmt::format("the device cannot be opened: {}", openni2_complaint()), identity_.uri,
+                 kDoctorHint);
   if (streams_->depth.create(streams_->device, openni::SENSOR_DEPTH) != openni::STATUS_OK)
-    throw failed("the device has no depth stream", identity_.uri, kHint);
+    throw failed("the device has no depth stream", identity_.uri, kDoctorHint);
   if (streams_->device.hasSensor(openni::SENSOR_COLOR))
     streams_->colour.create(streams_->device, openni::SENSOR_COLOR);
   choose_modes(settings.mode);
@@ -88,7 +89,7 @@ OpenNi2Device::OpenNi2Device(const DeviceIdentity& identity, const SensorSetting
   }
   if (streams_->depth.start() != openni::STATUS_OK)
     throw failed(fmt::format("the depth stream does not start: {}", openni2_complaint()), identity_.uri,
-                 kHint);
+                 kDoctorHint);
   opening_notes_ = notes_.size();
   apply(wanted);
 }
@@ -101,7 +102,7 @@ void OpenNi2Device::choose_modes(const std::optional<SensorMode>& wanted) {
   const std::vector<OfferedMode> offered = depth_modes(streams_->device);
   modes_ = names_of(offered);
   const int index = nearest_mode(modes_, wanted.value_or(SensorMode{}));
-  if (index < 0) throw failed("the device has no depth mode that can be used", identity_.uri, kHint);
+  if (index < 0) throw failed("the device has no depth mode that can be used", identity_.uri, kDoctorHint);
   const OfferedMode& nearest = offered[static_cast<std::size_t>(index)];
   if (wanted && nearest.mode != *wanted) {
     std::vector<std::string> texts;

@@ -18,7 +18,7 @@ using Connection = SourceState::Connection;
 constexpr milliseconds kSilence{2000}, kSilenceAfterOpening{5000};
 constexpr milliseconds kFirstBackOff{100}, kLongestBackOff{2000};
 constexpr std::string_view kSerial = "serial=";  // before a serial number in place of a URI
-constexpr const char* kHint = "plug in a sensor; saccade doctor looks for the reason";
+constexpr const char* kHintOfAbsence = "plug in a sensor; saccade doctor looks for the reason";
 constexpr const char* kHintOfLoss = "plug it in again; without --no-reconnect Saccade waits for it";
 
 SensorValues values_of(const SensorSettings& settings) {
@@ -132,7 +132,7 @@ void SensorConnection::took_device() {
 void SensorConnection::give_up() const {
   if (last_device_ || Clock::now() < wait_until_) return;
   if (last_failure_) throw unreadable(*last_failure_, "", "");
-  throw wanted_.empty() ? unreadable("no sensor is connected", "openni2", kHint)
+  throw wanted_.empty() ? unreadable("no sensor is connected", "openni2", kHintOfAbsence)
                         : unreadable("this sensor is not connected", "openni2:" + wanted_,
                                      "saccade devices lists the sensors with their serial numbers");
 }

@@ -37,8 +37,6 @@ namespace saccade {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr double kPictureScale = 2;  // pixels of hr.png per px of hr.svg
-
 Error interrupted(const fs::path& folder) {
   return Error(ExitStatus::unfinished, "interrupted", folder.string(), "the same command continues it");
 }

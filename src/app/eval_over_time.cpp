@@ -38,7 +38,6 @@ std::vector<std::string> models_of(const EvalArguments& arguments, const Setting
 
 void write_results(const fs::path& out, const EvalArguments& arguments, const Settings& settings,
                    const std::vector<SequenceResult>& results) {
-  constexpr double kPictureScale = 2;  // pixels of the PNG per px of the SVG
   const nlohmann::ordered_json json = {{"dataset", arguments.dataset}, {"models", over_time_json(results)}};
   write_file(out / "over_time.json", dump(json, 2) + "\n");
   const Drawing drawing = draw_over_time(results);

@@ -33,7 +33,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr int kSlotsInFlight = 4, kWriterThreads = 2;
+constexpr int kWriterThreads = 2;
 
 const ExportFormat& find_format(const std::string& name) {
   const auto formats = export_formats();

@@ -146,3 +146,5 @@ FORWARD(kScale, int, sws_scale,
         std::uint8_t* const pixels_out[], const int stride_out[]),
         (c, pixels_in, stride_in, row, rows, pixels_out, stride_out))
 // clang-format on
+
+#undef FORWARD

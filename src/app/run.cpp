@@ -39,7 +39,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr int kSlotsInFlight = 4;                // one captured, one computed, one waiting at either side
 constexpr std::size_t kRejectedListed = 10'000;  // so that hours with a bad sensor do not fill the memory
 
 // One `saccade run`, from open source to manifest.

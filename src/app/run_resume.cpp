@@ -15,8 +15,6 @@ namespace saccade {
 namespace fs = std::filesystem;
 namespace {
 
-using Json = nlohmann::json;  // the order of keys does not matter
-
 constexpr std::uintmax_t kLargestManifest = 1u << 30;
 constexpr std::int64_t kMostFrames = 1'000'000'000'000'000;
 constexpr const char* kOther = "choose another --out, or leave out --resume to begin again";
@@ -25,9 +23,9 @@ Error damaged(const fs::path& path) {
   return unreadable("not of a run of this program", path.string(), "leave out --resume to begin again");
 }
 
-Json read_manifest(const fs::path& path) {
+nlohmann::json read_manifest(const fs::path& path) {
   const auto bytes = read_file(path, kLargestManifest);
-  Json json = Json::parse(bytes, nullptr, false);
+  nlohmann::json json = nlohmann::json::parse(bytes, nullptr, false);
   if (!json.is_object() || !json.contains("settings")) throw damaged(path);
   return json;
 }
@@ -37,27 +35,28 @@ bool matters(const SettingSpec& spec) {
   return spec.scope != SettingScope::program && spec.key != "json" && spec.key != "stream";
 }
 
-void check_same(const Json& earlier, const Json& present, const std::string& what, const fs::path& folder) {
+void check_same(const nlohmann::json& earlier, const nlohmann::json& present, const std::string& what,
+                const fs::path& folder) {
   if (earlier == present) return;
   throw usage_error(
       fmt::format("the folder has another run: its {} is {}, not {}", what, dump(earlier), dump(present)),
       folder.string(), kOther);
 }
 
-void check_same_run(const Json& earlier, const Json& present, const fs::path& folder) {
+void check_same_run(const nlohmann::json& earlier, const nlohmann::json& present, const fs::path& folder) {
   for (const char* key : {"version", "formats", "shard"})
-    check_same(earlier.value(key, Json()), present.value(key, Json()), key, folder);
+    check_same(earlier.value(key, nlohmann::json()), present.value(key, nlohmann::json()), key, folder);
   check_same(earlier.at("source").at("uri"), present.at("source").at("uri"), "source", folder);
-  const Json &before = earlier.at("settings"), &now = present.at("settings");
+  const nlohmann::json &before = earlier.at("settings"), &now = present.at("settings");
   for (const SettingSpec& spec : setting_specs())
     if (const std::string key(spec.key); matters(spec)) check_same(before.at(key), now.at(key), key, folder);
 }
 
 // Of a line of fixations.jsonl or a rejected frame. Other numbers, which somebody else must have written, are
 // not converted: from some there is no way to an integer, and others would overflow.
-std::int64_t frame_of(const Json& json, const fs::path& path) {
+std::int64_t frame_of(const nlohmann::json& json, const fs::path& path) {
   if (!json.is_object() || !json.contains("frame")) throw damaged(path);
-  const Json& frame = json["frame"];
+  const nlohmann::json& frame = json["frame"];
   if (!frame.is_number_integer() || frame < 0 || frame > kMostFrames) throw damaged(path);
   return frame.get<std::int64_t>();
 }
@@ -77,7 +76,8 @@ std::optional<Line> keep_lines(const fs::path& path, std::int64_t unsure, std::i
   std::deque<Line> last;
   std::int64_t frame = -1;
   for (std::string_view line; reader.next(line);) {
-    if (const std::int64_t before = std::exchange(frame, frame_of(Json::parse(line, nullptr, false), path));
+    if (const std::int64_t before =
+            std::exchange(frame, frame_of(nlohmann::json::parse(line, nullptr, false), path));
         frame <= before)
       throw damaged(path);
     last.push_back({frame, reader.position()});
@@ -90,8 +90,9 @@ std::optional<Line> keep_lines(const fs::path& path, std::int64_t unsure, std::i
   return kept;
 }
 
-void add_rejected(const Json& manifest, const fs::path& path, std::int64_t last, ResumePoint& point) {
-  for (const Json& one : manifest.value("rejected", Json::array()))
+void add_rejected(const nlohmann::json& manifest, const fs::path& path, std::int64_t last,
+                  ResumePoint& point) {
+  for (const nlohmann::json& one : manifest.value("rejected", nlohmann::json::array()))
     if (const std::int64_t frame = frame_of(one, path); frame <= last)
       point.rejected.emplace_back(frame, one.at("reason"));
 }
@@ -103,10 +104,10 @@ std::optional<ResumePoint> find_resume_point(const fs::path& folder, const RunRe
   const fs::path path = folder / "manifest.json", lines = folder / "fixations.jsonl";
   std::error_code code;
   if (!fs::exists(path, code)) return std::nullopt;
-  const Json manifest = read_manifest(path);
+  const nlohmann::json manifest = read_manifest(path);
   ResumePoint point;
   try {
-    check_same_run(manifest, Json(manifest_json(report)), folder);
+    check_same_run(manifest, nlohmann::json(manifest_json(report)), folder);
     point.complete = manifest.at("status") == "done";
     if (point.complete) return point;
     if (fs::is_symlink(lines, code)) throw failed("it is a symbolic link", lines.string(), "delete it");
@@ -115,7 +116,7 @@ std::optional<ResumePoint> find_resume_point(const fs::path& folder, const RunRe
     point.positions = (kept->frame - report.settings.start) / report.settings.every + 1;
     if (point.positions < point.frames) throw damaged(lines);
     add_rejected(manifest, path, kept->frame, point);
-  } catch (const Json::exception&) {
+  } catch (const nlohmann::json::exception&) {
     throw damaged(path);
   }
   return point;

@@ -11,17 +11,13 @@
 namespace saccade {
 namespace {
 
-constexpr int kCell = SurfaceGrid::kCellPx;
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
 // Of a cell that the border cuts, the pixels outside count as 0.
 float mean_of_cut_cell(const cv::Mat1f& saliency, int row, int col) {
   const CellPixels pixels(saliency, row, col);
   float sum = 0;
-  for (int v = 0; v < kCell; ++v) {
+  for (int v = 0; v < kCellPx; ++v) {
     const float* const s = pixels.row(v);
-    sum += ((s[0] + s[1]) + (s[2] + s[3])) / (kCell * kCell);
+    sum += ((s[0] + s[1]) + (s[2] + s[3])) / (kCellPx * kCellPx);
   }
   return sum;
 }
@@ -29,7 +25,7 @@ float mean_of_cut_cell(const cv::Mat1f& saliency, int row, int col) {
 void mean_of_cells(const cv::Mat1f& saliency, int rows, int cols, float* means) {
   for (int r = 0; r < rows; ++r) {
     float* const out = means + r * cols;
-    const int top = r * kCell, whole = top + kCell <= saliency.rows ? saliency.cols / kCell : 0;
+    const int top = r * kCellPx, whole = top + kCellPx <= saliency.rows ? saliency.cols / kCellPx : 0;
     if (whole > 0)
       mean_values({saliency[top], saliency[top + 1], saliency[top + 2], saliency[top + 3]}, out, at(whole));
     for (int c = whole; c < cols; ++c) out[c] = mean_of_cut_cell(saliency, r, c);
@@ -56,7 +52,7 @@ void smooth_cells(const cv::Mat1f& saliency, std::vector<float>& scratch, std::v
                                                           56.0F / 256, 70.0F / 256, 56.0F / 256,
                                                           28.0F / 256, 8.0F / 256,  1.0F / 256};
   const std::span<const float> weights(kWeights);
-  const int rows = (saliency.rows + kCell - 1) / kCell, cols = (saliency.cols + kCell - 1) / kCell;
+  const int rows = (saliency.rows + kCellPx - 1) / kCellPx, cols = (saliency.cols + kCellPx - 1) / kCellPx;
   // The means, and behind them a row with zeros at both ends.
   scratch.resize(at(rows * cols + cols + 2 * kReach));
   mean_of_cells(saliency, rows, cols, scratch.data());

@@ -3,11 +3,6 @@
 #include <algorithm>
 
 namespace saccade {
-namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
-}  // namespace
 
 void CellsOfSegments::list(const SurfaceSegments& segments) {
   const std::vector<int>& of_cell = segments.of_cell();

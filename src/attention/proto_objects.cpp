@@ -8,10 +8,6 @@
 namespace saccade {
 namespace {
 
-constexpr int kCell = SurfaceGrid::kCellPx;
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
 // The same surface as that of a cell with depth z0.
 bool on_surface(float z, float z0) { return z > 0 && std::abs(z - z0) <= SurfaceGrid::kSameSurface * z0; }
 
@@ -30,7 +26,7 @@ void ProtoObjects::begin(const SurfaceGrid& grid, const SurfaceSegments& segment
 void ProtoObjects::set_rays(const Intrinsics& camera) {
   ray_x_.resize(at(grid_->cols()));
   ray_y_.resize(at(grid_->rows()));
-  const std::size_t side = at(kCell);
+  const std::size_t side = at(kCellPx);
   for (std::size_t p = 0; p < side * side; ++p) {  // the pixels of a cell
     const std::size_t u = p % side, v = p / side;
     for (std::size_t c = 0; c < ray_x_.size(); ++c)
@@ -54,11 +50,11 @@ const std::vector<int>& ProtoObjects::around(int cell) {
 
 // There is one: the pixel that the cell's depth was gathered around.
 cv::Point ProtoObjects::fixated_pixel(const cv::Mat1f& saliency, int cell) const {
-  const int top = cell / grid_->cols() * kCell, left = cell % grid_->cols() * kCell;
+  const int top = cell / grid_->cols() * kCellPx, left = cell % grid_->cols() * kCellPx;
   const float z0 = grid_->depth_mm()[at(cell)];
   cv::Point best(-1, -1);
-  for (int r = top; r < std::min(top + kCell, depth_mm_->rows); ++r)
-    for (int c = left; c < std::min(left + kCell, depth_mm_->cols); ++c)
+  for (int r = top; r < std::min(top + kCellPx, depth_mm_->rows); ++r)
+    for (int c = left; c < std::min(left + kCellPx, depth_mm_->cols); ++c)
       if (on_surface((*depth_mm_)(r, c), z0) && (best.x < 0 || saliency(r, c) > saliency(best)))
         best = {c, r};
   return best;

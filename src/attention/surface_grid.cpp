@@ -12,8 +12,7 @@
 namespace saccade {
 namespace {
 
-constexpr int kCell = SurfaceGrid::kCellPx;
-static_assert(kCell == saccade::kCellPx);
+static_assert(SurfaceGrid::kCellPx == kCellPx);
 
 constexpr int kConcaveReach = 2;  // cells, to both ends of the baseline of the concavity test
 
@@ -23,14 +22,14 @@ constexpr ConcaveLimit kConcave = {.sine = 0.3F, .sine_per_metre = 0.1F, .reach 
 }  // namespace
 
 void SurfaceGrid::build(const cv::Mat1f& depth_mm, const Intrinsics& camera) {
-  rows_ = (depth_mm.rows + kCell - 1) / kCell;
-  cols_ = (depth_mm.cols + kCell - 1) / kCell;
-  constexpr double kMiddle = (kCell - 1) / 2.0;
+  rows_ = (depth_mm.rows + kCellPx - 1) / kCellPx;
+  cols_ = (depth_mm.cols + kCellPx - 1) / kCellPx;
+  constexpr double kMiddle = (kCellPx - 1) / 2.0;
   camera_ = camera;
-  camera_.fx /= kCell;
-  camera_.fy /= kCell;
-  camera_.cx = (camera.cx - kMiddle) / kCell;
-  camera_.cy = (camera.cy - kMiddle) / kCell;
+  camera_.fx /= kCellPx;
+  camera_.fy /= kCellPx;
+  camera_.cx = (camera.cx - kMiddle) / kCellPx;
+  camera_.cy = (camera.cy - kMiddle) / kCellPx;
   make_cells(depth_mm);
   if (size() == 0) return;
   make_normals();
@@ -41,7 +40,7 @@ void SurfaceGrid::build(const cv::Mat1f& depth_mm, const Intrinsics& camera) {
 // Of a cell that a jump crosses, or that has gaps or is cut by the border.
 float SurfaceGrid::cell_depth(const cv::Mat1f& depth, int row, int col) const {
   using Lanes = cv::v_float32x4;
-  static_assert(kCell == Lanes::nlanes);
+  static_assert(kCellPx == Lanes::nlanes);
   const CellPixels pixels(depth, row, col);
   float z0 = 0;
   for (const int v : {1, 2, 0, 3})  // from the middle
@@ -51,7 +50,7 @@ float SurfaceGrid::cell_depth(const cv::Mat1f& depth, int row, int col) const {
   const Lanes first = cv::v_setall_f32(z0), reach = cv::v_setall_f32(kSameSurface * z0),
               one = cv::v_setall_f32(1);
   Lanes sum = cv::v_setzero_f32(), count = sum;
-  for (int v = 0; v < kCell; ++v) {
+  for (int v = 0; v < kCellPx; ++v) {
     const Lanes z = cv::v_load(pixels.row(v)), same = cv::v_abs(z - first) <= reach;  // 0 is out of reach
     sum += z & same;
     count += one & same;
@@ -65,7 +64,7 @@ void SurfaceGrid::make_cells(const cv::Mat1f& depth) {
   for (int r = 0; r < rows_; ++r) {
     const std::size_t begin = static_cast<std::size_t>(r) * static_cast<std::size_t>(cols_);
     float* const z = &z_[begin];
-    const int top = r * kCell, whole = top + kCell <= depth.rows ? depth.cols / kCell : 0;
+    const int top = r * kCellPx, whole = top + kCellPx <= depth.rows ? depth.cols / kCellPx : 0;
     if (whole > 0)
       mean_depths({depth[top], depth[top + 1], depth[top + 2], depth[top + 3]}, kSameSurface, z,
                   static_cast<std::size_t>(whole));

@@ -10,6 +10,9 @@
 
 namespace saccade {
 
+/// The number of a cell or a segment as an index.
+inline std::size_t at(int number) { return static_cast<std::size_t>(number); }
+
 struct FramedCells;
 struct OrientedCells;
 

@@ -11,6 +11,8 @@ namespace saccade {
 /// The largest stored value that is a reading: 65535 stands for "no reading" in 16-bit depth images.
 inline constexpr int kLargestStoredDepth = 65534;
 
+inline constexpr double kMmPerMetre = 1000;
+
 /// Stored 16-bit depth, in units of `unit_mm`, to mm: the float nearest to value * unit_mm. 0 and 65535 are
 /// no reading and become 0. Overwrites `depth_mm`.
 void depth_from_units(const cv::Mat1w& stored, double unit_mm, cv::Mat1f& depth_mm);

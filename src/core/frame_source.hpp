@@ -13,6 +13,8 @@
 
 namespace saccade {
 
+inline constexpr double kDefaultRateHz = 30;  ///< of a source or a stream that names none
+
 /// Properties of a source, known when it has been opened.
 struct SourceInfo {
   std::string uri;                          ///< as the user named it

@@ -15,6 +15,9 @@ namespace saccade {
 
 inline constexpr Colour kInk{40, 40, 40}, kGrid{224, 224, 224}, kGray{110, 110, 110};
 
+/// The margins of a chart for its title and the numbers of its axes, px.
+inline constexpr double kChartLeft = 62, kChartTop = 44;
+
 /// How one series of a chart is drawn.
 struct SeriesStyle {
   std::string name;

@@ -48,6 +48,8 @@ struct Drawing {
 /// The drawing as an SVG document, the same text for the same drawing.
 std::string to_svg(const Drawing& drawing);
 
+inline constexpr double kPictureScale = 2;  ///< of the PNG beside an SVG
+
 /// The drawing on white, `scale` pixels per px. BGR.
 cv::Mat3b to_picture(const Drawing& drawing, double scale);
 

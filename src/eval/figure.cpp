@@ -10,7 +10,7 @@
 namespace saccade {
 namespace {
 
-constexpr double kPanelWidth = 380, kPanelHeight = 280, kLeft = 62, kTop = 44, kBottom = 52, kGap = 24;
+constexpr double kPanelWidth = 380, kPanelHeight = 280, kPanelBottom = 52, kGap = 24;
 constexpr double kLegendWidth = 190;
 constexpr std::size_t kPanelsInRow = 4, kMostShaded = 4;
 
@@ -197,22 +197,23 @@ Drawing draw_hit_ratios(const EvalPlan& plan, const Statistics& statistics) {
   Drawing drawing;
   for (const Row& row : rows) {
     columns = std::max(columns, row.panels.size());
-    double x = kLeft;
+    double x = kChartLeft;
     for (const Panel& panel : row.panels) {
-      Axes(drawing, {x, height + kTop}, plan.points).draw(panel, x == kLeft);
-      x += kPanelWidth + kGap + kLeft / 2;
+      Axes(drawing, {x, height + kChartTop}, plan.points).draw(panel, x == kChartLeft);
+      x += kPanelWidth + kGap + kChartLeft / 2;
     }
-    draw_legend(drawing, {x - kLeft / 2, height + kTop + 12}, styles_of(row.panels[0]));
-    const double legend = kTop + 12 + kLegendLine * static_cast<double>(row.panels[0].series.size());
-    height += std::max(kTop + kPanelHeight + kBottom, legend);
+    draw_legend(drawing, {x - kChartLeft / 2, height + kChartTop + 12}, styles_of(row.panels[0]));
+    const double legend = kChartTop + 12 + kLegendLine * static_cast<double>(row.panels[0].series.size());
+    height += std::max(kChartTop + kPanelHeight + kPanelBottom, legend);
   }
-  drawing.width = kLeft / 2 + static_cast<double>(columns) * (kPanelWidth + kGap + kLeft / 2) + kLegendWidth;
+  drawing.width =
+      kChartLeft / 2 + static_cast<double>(columns) * (kPanelWidth + kGap + kChartLeft / 2) + kLegendWidth;
   drawing.height = height + 10;
   bool shaded = false;
   for (const Row& row : rows)
     for (const Series& series : row.panels[0].series) shaded = shaded || series.shaded;
   drawing.shapes.emplace_back(
-      Text{{kLeft, 28},
+      Text{{kChartLeft, 28},
            fmt::format("Hit Ratio, {}, {:.1f} objects each{}", counted(statistics.images, "image"),
                        statistics.objects_mean, shaded ? "; shaded: 95 % interval" : ""),
            15,

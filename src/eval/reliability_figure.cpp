@@ -9,10 +9,10 @@
 namespace saccade {
 namespace {
 
-constexpr double kSide = 320, kLeft = 62, kTop = 44, kBottom = 56, kLegendWidth = 330;
+constexpr double kSide = 320, kBottom = 56, kReliabilityLegendWidth = 330;
 
 cv::Point2d place(double confidence, double on_object) {
-  return {kLeft + confidence * kSide, kTop + (1 - on_object) * kSide};
+  return {kChartLeft + confidence * kSide, kChartTop + (1 - on_object) * kSide};
 }
 
 void draw_axes(Drawing& drawing) {
@@ -30,7 +30,8 @@ void draw_axes(Drawing& drawing) {
       Text{place(0.5, 0) + cv::Point2d(0, 40), "confidence", 13, Anchor::middle, kInk});
   drawing.shapes.emplace_back(
       Text{place(0, 0.5) + cv::Point2d(-40, 0), "share on objects", 13, Anchor::middle, kInk, true});
-  drawing.shapes.emplace_back(Text{{kLeft, 28}, "Reliability of the confidence", 15, Anchor::start, kInk});
+  drawing.shapes.emplace_back(
+      Text{{kChartLeft, 28}, "Reliability of the confidence", 15, Anchor::start, kInk});
 }
 
 void draw_series(Drawing& drawing, const Reliability& reliability, const SeriesStyle& style) {
@@ -55,9 +56,10 @@ std::optional<Drawing> draw_reliability(const EvalPlan& plan, const Statistics& 
       draw_series(drawing, *reliability, legend.back());
     }
   if (legend.empty()) return std::nullopt;
-  draw_legend(drawing, {kLeft + kSide + 24, kTop + 12}, legend);
-  drawing.width = kLeft + kSide + 24 + kLegendWidth;
-  drawing.height = kTop + std::max(kSide + kBottom, 12 + kLegendLine * static_cast<double>(legend.size()));
+  draw_legend(drawing, {kChartLeft + kSide + 24, kChartTop + 12}, legend);
+  drawing.width = kChartLeft + kSide + 24 + kReliabilityLegendWidth;
+  drawing.height =
+      kChartTop + std::max(kSide + kBottom, 12 + kLegendLine * static_cast<double>(legend.size()));
   return drawing;
 }
 

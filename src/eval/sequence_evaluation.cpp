@@ -11,6 +11,7 @@
 
 #include "attention/attention.hpp"
 #include "core/error.hpp"
+#include "eval/chart.hpp"
 #include "eval/hit_ratio.hpp"
 #include "models/model.hpp"
 #include "tracking/attention_tracker.hpp"
@@ -229,7 +230,6 @@ std::string over_time_text(const std::vector<SequenceResult>& results) {
 // A group of bars for each measure that any model has, a bar for each model.
 Drawing draw_over_time(const std::vector<SequenceResult>& results) {
   constexpr double kLeft = 190, kTop = 40, kLength = 420, kBar = 11, kGap = 9, kSize = 12;
-  constexpr Colour kInk{40, 40, 40}, kGrid{224, 224, 224};
   constexpr std::array<Colour, 6> kPalette = {
       {{0, 114, 178}, {213, 94, 0}, {0, 158, 115}, {204, 121, 167}, {230, 159, 0}, {86, 180, 233}}};
   Drawing drawing;

@@ -12,6 +12,8 @@ namespace saccade {
 /// a sequence of 16-bit symbols, each as a small difference from the previous one, as a run, or in full.
 enum class Codec16z { plain, table };
 
+constexpr std::size_t kSymbols16z = 65536;  ///< that there are
+
 /// The result of decoding a payload.
 struct [[nodiscard]] Decoded16z {
   std::size_t pixels = 0;       ///< number written
@@ -52,7 +54,7 @@ class Encoder16z {
 };
 
 /// The most bytes that encode() appends for `pixels` pixels.
-constexpr std::size_t max_size_16z(std::size_t pixels) { return 3 * pixels + 2 + 2 + std::size_t{2} * 65536; }
+constexpr std::size_t max_size_16z(std::size_t pixels) { return 3 * pixels + 2 + 2 + 2 * kSymbols16z; }
 
 /// False if a payload of `bytes` is too short for `pixels`: a byte holds at most 60.
 constexpr bool may_hold_16z(std::size_t bytes, std::size_t pixels) { return pixels / 60 <= bytes; }

@@ -4,14 +4,12 @@
 
 #include "oni/bytes.hpp"
 #include "oni/codec_16z.hpp"
+#include "oni/codec_faults.hpp"
 
 namespace saccade {
 namespace {
 
-constexpr std::size_t kSymbols = 65536;
 constexpr std::uint32_t kNoValue = 1u << 31;
-constexpr const char* kTruncated = "the coded data is truncated";
-constexpr const char* kTooMany = "more pixels than the image has";
 constexpr const char* kNoTable = "the table of values is damaged";
 constexpr const char* kNotInTable = "a pixel that is not in the table of values";
 
@@ -46,8 +44,8 @@ constexpr std::array<Step, 256> kSteps = make_steps();
 
 // The fast loop decodes this many codes (bytes, or escapes with their bytes) without bounds checks.
 constexpr std::size_t kBlock = 64;
-constexpr std::size_t kMostBytes = 3;    // of one code
-constexpr std::size_t kMostPixels = 64;  // that one code may write to
+constexpr std::size_t kMostBytes = 3;          // of one code
+constexpr std::size_t kMostPixelsOfCode = 64;  // that one code may write to
 // The largest change of a symbol within a block; an escape sets the symbol and wraps it.
 constexpr std::size_t kGuard = 16 * kBlock;
 
@@ -99,10 +97,10 @@ class SymbolReader {
     if (in_end_ - in_ < 2) return result(kTruncated);
     cursor_.set(load_le<std::uint16_t>(in_));
     in_ += 2;
-    if (!emit(1)) return result(kTooMany);
+    if (!emit(1)) return result(kTooManyPixels);
     while (in_ < in_end_) {
       const std::size_t room = std::min({kBlock, static_cast<std::size_t>(in_end_ - in_) / kMostBytes,
-                                         static_cast<std::size_t>(out_end_ - out_) / kMostPixels});
+                                         static_cast<std::size_t>(out_end_ - out_) / kMostPixelsOfCode});
       if (room > 0)
         run_block(room);
       else if (const char* fault = run_one(); fault != nullptr)
@@ -157,15 +155,15 @@ class SymbolReader {
     const Step step = kSteps[*in_++];
     if (step.pixels > 0) {
       cursor_.move(step.first);
-      if (!emit(1)) return kTooMany;
+      if (!emit(1)) return kTooManyPixels;
       cursor_.move(step.last - step.first);
-      if (!emit(step.pixels - std::size_t{1})) return kTooMany;
+      if (!emit(step.pixels - std::size_t{1})) return kTooManyPixels;
     }
     if (!step.escape) return nullptr;
     const auto left = static_cast<std::size_t>(in_end_ - in_);
     if (left < 1 || (in_[0] < 0x80 && left < 2)) return kTruncated;
     in_ += read_escape(in_, cursor_);
-    return emit(1) ? nullptr : kTooMany;
+    return emit(1) ? nullptr : kTooManyPixels;
   }
 
   // A larger difference in one byte, or the symbol itself in two. Returns the number of bytes.
@@ -209,14 +207,14 @@ Decoded16z Decoder16z::decode(Codec16z codec, std::span<const std::uint8_t> payl
 
 // Symbols wrap, so each guard is a copy of the other end.
 void Decoder16z::load_table(std::span<const std::uint8_t> values) {
-  table_.resize(kGuard + kSymbols + kGuard, kNoValue);
+  table_.resize(kGuard + kSymbols16z + kGuard, kNoValue);
   std::uint32_t* const table = table_.data() + kGuard;
   const std::size_t count = values.size() / 2;
   for (std::size_t i = 0; i < count; ++i) table[i] = load_le<std::uint16_t>(&values[2 * i]);
   std::fill(table + count, table + std::max(count, filled_), kNoValue);  // values of the previous frame
   filled_ = count;
-  std::copy_n(table + kSymbols - kGuard, kGuard, table - kGuard);
-  std::copy_n(table, kGuard, table + kSymbols);
+  std::copy_n(table + kSymbols16z - kGuard, kGuard, table - kGuard);
+  std::copy_n(table, kGuard, table + kSymbols16z);
 }
 
 }  // namespace saccade

@@ -8,8 +8,6 @@
 namespace saccade {
 namespace {
 
-constexpr std::size_t kSymbols = 65536;
-
 // Writes symbols; packs small differences into nibbles and runs. `out` must have room, see max_size_16z().
 class SymbolWriter {
  public:
@@ -78,10 +76,10 @@ class SymbolWriter {
 }  // namespace
 
 void Encoder16z::build_table(std::span<const std::uint16_t> pixels) {
-  index_of_.assign(kSymbols, 0);
+  index_of_.assign(kSymbols16z, 0);
   for (const std::uint16_t pixel : pixels) index_of_[pixel] = 1;
   values_.clear();
-  for (std::size_t value = 0; value < kSymbols; ++value) {
+  for (std::size_t value = 0; value < kSymbols16z; ++value) {
     if (index_of_[value] == 0) continue;
     index_of_[value] = static_cast<std::uint16_t>(values_.size());
     values_.push_back(static_cast<std::uint16_t>(value));
@@ -94,7 +92,7 @@ bool Encoder16z::encode(Codec16z codec, std::span<const std::uint16_t> pixels,
   const std::size_t start = payload.size();
   const bool table = codec == Codec16z::table;
   if (table) build_table(pixels);
-  if (table && values_.size() >= kSymbols) return false;  // the u16 count cannot hold it
+  if (table && values_.size() >= kSymbols16z) return false;  // the u16 count cannot hold it
   payload.resize(start + max_size_16z(pixels.size()));
   std::uint8_t* out = payload.data() + start;
   if (table) {

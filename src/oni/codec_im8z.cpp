@@ -2,11 +2,10 @@
 
 #include <algorithm>
 
+#include "oni/codec_faults.hpp"
+
 namespace saccade {
 namespace {
-
-constexpr const char* kTruncated = "the coded data is truncated";
-constexpr const char* kTooMany = "more pixels than the image has";
 
 class Im8zReader {
  public:
@@ -49,7 +48,7 @@ class Im8zReader {
   }
 
   const char* repeat(std::size_t count) {
-    if (out_.size() - written_ < count) return kTooMany;
+    if (out_.size() - written_ < count) return kTooManyPixels;
     std::fill_n(out_.begin() + static_cast<std::ptrdiff_t>(written_), count, current_);
     written_ += count;
     return nullptr;

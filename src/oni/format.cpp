@@ -7,12 +7,6 @@
 #include "oni/bytes.hpp"
 
 namespace saccade {
-namespace {
-
-constexpr char kFileMagic[4] = {'N', 'I', '1', '0'};
-constexpr char kRecordMagic[4] = {'N', 'I', 'R', '\0'};
-
-}  // namespace
 
 bool is_property(OniRecordType type) {
   return type >= OniRecordType::int_property && type <= OniRecordType::general_property;
@@ -140,7 +134,9 @@ std::optional<OniPixelFormat> pixel_format_of(std::uint64_t number) {
 }
 
 std::optional<OniFileHeader> parse_file_header(std::span<const std::uint8_t> bytes) {
-  if (bytes.size() < kOniHeaderSize || std::memcmp(bytes.data(), kFileMagic, 4) != 0) return std::nullopt;
+  if (bytes.size() < kOniHeaderSize ||
+      std::memcmp(bytes.data(), kOniFileMagic.data(), kOniFileMagic.size()) != 0)
+    return std::nullopt;
   OniFileHeader header;
   header.version = {bytes[4], bytes[5], load_le<std::uint16_t>(&bytes[6]), load_le<std::uint32_t>(&bytes[8])};
   header.max_timestamp = load_le<std::uint64_t>(&bytes[12]);
@@ -160,7 +156,9 @@ std::string to_string(const OniVersion& version) {
 std::optional<OniRecord> parse_record(const OniFileHeader& file, std::uint64_t position,
                                       std::span<const std::uint8_t> bytes) {
   const std::size_t header_size = file.record_header_size();
-  if (bytes.size() < header_size || std::memcmp(bytes.data(), kRecordMagic, 4) != 0) return std::nullopt;
+  if (bytes.size() < header_size ||
+      std::memcmp(bytes.data(), kOniRecordMagic.data(), kOniRecordMagic.size()) != 0)
+    return std::nullopt;
   OniRecord record;
   record.position = position;
   record.type = static_cast<OniRecordType>(load_le<std::uint32_t>(&bytes[4]));

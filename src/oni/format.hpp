@@ -14,7 +14,7 @@ namespace saccade {
 /// The .oni container (README 1 and 2): a 24-byte file header, then records back to back. Everything is
 /// little-endian and packed; positions are byte offsets from the start of the file; times are microseconds.
 
-constexpr double kDefaultRateHz = 30;  ///< of a stream that names none
+constexpr std::array<char, 4> kOniFileMagic = {'N', 'I', '1', '0'}, kOniRecordMagic = {'N', 'I', 'R', '\0'};
 constexpr std::size_t kOniHeaderSize = 24;
 constexpr std::size_t kOniMaxRecordHeader = 28;
 constexpr std::size_t kOniFrameFields = 12;  ///< u64 timestamp, u32 number, after the header of NEW_DATA

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "core/frame_source.hpp"
+
 namespace saccade {
 namespace {
 

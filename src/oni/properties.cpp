@@ -14,27 +14,7 @@
 namespace saccade {
 namespace {
 
-using namespace oni_property;
-
 constexpr OniPropertySize exactly(std::size_t size) { return {size, size, 1}; }
-
-constexpr std::array<std::pair<std::string_view, OniPropertySize>, 15> kKnown = {{
-    {kMode, exactly(12)},
-    {kXnFormat, exactly(8)},
-    {kOniFormat, exactly(8)},
-    {kMaxDepth, exactly(8)},
-    {kFov, exactly(16)},
-    {kRealWorld, exactly(24)},
-    {kCropping, exactly(12)},
-    {kMirror, exactly(8)},
-    {kShiftToDepth, {2, kOniMaxPropertySize, 2}},
-    {kIntrinsics, exactly(32)},
-    {kIntrinsicsGuessed, exactly(8)},
-    {kRegistered, exactly(8)},
-    {kDropped, exactly(8)},
-    {kRounded, exactly(8)},
-    {kWrittenBy, {1, kOniMaxName, 1}},
-}};
 
 OniPixelFormat default_format(OniNodeType type) {
   switch (type) {
@@ -50,11 +30,11 @@ OniPixelFormat default_format(OniNodeType type) {
 // The pixel format of the two properties; absent if they name none that fits the node.
 std::optional<OniPixelFormat> pixel_format(const OniNode& node, std::uint64_t position) {
   const bool depth = node.declared.type == OniNodeType::depth;
-  if (const auto number = node.int_property(kOniFormat, position)) {
+  if (const auto number = node.int_property(oni_property::kOniFormat, position)) {
     const auto format = pixel_format_of(*number);
     return format && holds_depth(*format) == depth ? format : std::nullopt;
   }
-  const auto number = node.int_property(kXnFormat, position);
+  const auto number = node.int_property(oni_property::kXnFormat, position);
   if (!number) return default_format(node.declared.type);
   if (depth) return *number == 4 ? std::optional(OniPixelFormat::depth_1mm) : std::nullopt;
   // 1..5 are RGB24, YUV422, grey 8, grey 16 and JPEG, in the order of OpenNI2's numbers.
@@ -95,7 +75,7 @@ cv::Rect crop_at(const OniNode& node, std::uint64_t position, cv::Size size) {
 }  // namespace
 
 std::optional<cv::Rect> cropping_at(const OniNode& node, std::uint64_t position) {
-  const auto value = node.property(kCropping, position);
+  const auto value = node.property(oni_property::kCropping, position);
   if (!value || load_le<std::uint32_t>(value->data()) == 0) return std::nullopt;
   const auto number = [&](std::size_t i) { return int{load_le<std::uint16_t>(value->data() + 4 + 2 * i)}; };
   return cv::Rect(number(0), number(1), number(2), number(3));
@@ -107,6 +87,24 @@ bool fits_in(const cv::Rect& part, cv::Size size) {
 }
 
 std::optional<OniPropertySize> known_property_size(std::string_view name) {
+  using namespace oni_property;
+  static constexpr std::array<std::pair<std::string_view, OniPropertySize>, 15> kKnown = {{
+      {kMode, exactly(12)},
+      {kXnFormat, exactly(8)},
+      {kOniFormat, exactly(8)},
+      {kMaxDepth, exactly(8)},
+      {kFov, exactly(16)},
+      {kRealWorld, exactly(24)},
+      {kCropping, exactly(12)},
+      {kMirror, exactly(8)},
+      {kShiftToDepth, {2, kOniMaxPropertySize, 2}},
+      {kIntrinsics, exactly(32)},
+      {kIntrinsicsGuessed, exactly(8)},
+      {kRegistered, exactly(8)},
+      {kDropped, exactly(8)},
+      {kRounded, exactly(8)},
+      {kWrittenBy, {1, kOniMaxName, 1}},
+  }};
   const auto found =
       std::find_if(kKnown.begin(), kKnown.end(), [&](const auto& k) { return k.first == name; });
   return found == kKnown.end() ? std::nullopt : std::optional(found->second);
@@ -120,7 +118,7 @@ OniFormat format_at(const OniNode& node, std::uint64_t position) {
   };
   if (!is_known(node.declared.codec))
     return fail(fmt::format("unknown codec {}", to_string(node.declared.codec)));
-  const auto mode = node.property(kMode, position);
+  const auto mode = node.property(oni_property::kMode, position);
   if (!mode) return fail("no image size");
   const auto width = load_le<std::uint32_t>(mode->data()), height = load_le<std::uint32_t>(mode->data() + 4),
              rate = load_le<std::uint32_t>(mode->data() + 8);
@@ -143,23 +141,24 @@ OniFormat format_at(const OniNode& node, std::uint64_t position) {
   if ((*pixels == OniPixelFormat::yuv422 || *pixels == OniPixelFormat::yuyv) && format.crop.width % 2 != 0)
     return fail("colour pairs in an image of odd width");
   const bool shifts = *pixels == OniPixelFormat::shift_9_2 || *pixels == OniPixelFormat::shift_9_3;
-  if (shifts && !node.property(kShiftToDepth, position)) return fail("raw shifts without their table S2D");
+  if (shifts && !node.property(oni_property::kShiftToDepth, position))
+    return fail("raw shifts without their table S2D");
   return format;
 }
 
 std::optional<Intrinsics> intrinsics_at(const OniNode& node, std::uint64_t position, cv::Size size) {
-  if (const auto value = node.property(kIntrinsics, position)) {
+  if (const auto value = node.property(oni_property::kIntrinsics, position)) {
     const auto number = [&](std::size_t i) { return load_le<double>(value->data() + 8 * i); };
-    const bool guessed = node.int_property(kIntrinsicsGuessed, position).value_or(0) != 0;
+    const bool guessed = node.int_property(oni_property::kIntrinsicsGuessed, position).value_or(0) != 0;
     const Intrinsics camera{number(0), number(1), number(2), number(3),
                             guessed ? IntrinsicsOrigin::guess : IntrinsicsOrigin::file};
     if (camera.valid()) return camera;
   }
-  if (const auto value = node.property(kFov, position)) {
+  if (const auto value = node.property(oni_property::kFov, position)) {
     const auto camera = from_angles(load_le<double>(value->data()), load_le<double>(value->data() + 8), size);
     if (camera) return camera;
   }
-  if (const auto value = node.property(kRealWorld, position)) {
+  if (const auto value = node.property(oni_property::kRealWorld, position)) {
     const auto number = [&](std::size_t i) { return load_le<double>(value->data() + 8 * i); };
     const double plane = number(0), pixel = number(1), ratio = number(2);
     return from_angles(2 * std::atan(pixel * ratio * size.width / 2 / plane),

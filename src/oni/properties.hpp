@@ -34,6 +34,9 @@ constexpr std::string_view kRounded = "saccadeRoundedFrames";  ///< int, frames 
 constexpr std::string_view kWrittenBy = "saccadeVersion";      ///< string, the program that wrote the file
 }  // namespace oni_property
 
+/// The value of oni_property::kMaxDepth in files that Saccade writes; readings reach kLargestStoredDepth.
+constexpr std::uint64_t kOniMaxDepth = 65535;
+
 /// The sizes that the value of a known property may have, bytes.
 struct OniPropertySize {
   std::size_t least = 0, most = 0, step = 1;

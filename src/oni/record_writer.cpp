@@ -8,13 +8,12 @@
 namespace saccade {
 namespace {
 
-constexpr std::uint32_t kRecordMagic = 0x0052494E;  // "NIR", NUL
 constexpr std::size_t kHeader = kOniMaxRecordHeader;
 constexpr std::size_t kTableEntry = 20;
 constexpr const char* kFullHint = "free some space and try again";
 
 void put_file_header(ByteBuilder& out, std::uint64_t max_timestamp, std::uint32_t max_node_id) {
-  for (const char c : {'N', 'I', '1', '0'}) out.put(c);
+  out.put(kOniFileMagic);
   out.put(std::uint8_t{1});
   out.put(std::uint8_t{0});
   out.put(std::uint16_t{1});
@@ -25,7 +24,7 @@ void put_file_header(ByteBuilder& out, std::uint64_t max_timestamp, std::uint32_
 
 void put_record_header(ByteBuilder& out, OniRecordType type, std::uint32_t node, std::size_t fields_size,
                        std::size_t payload_size, std::uint64_t undo) {
-  out.put(kRecordMagic);
+  out.put(kOniRecordMagic);
   out.put(static_cast<std::uint32_t>(type));
   out.put(node);
   out.put(static_cast<std::uint32_t>(kHeader + fields_size));

@@ -18,7 +18,6 @@
 namespace saccade {
 namespace {
 
-constexpr std::uint64_t kMaxDepth = 65535;
 constexpr std::size_t kMaxPropertyBytes = 16u << 20;  // of all nodes; genuine files have far less
 
 // True for nodes that a player can decode, and for nodes that hold no frames.
@@ -144,7 +143,7 @@ class Repair {
       }
       if (node.declared.type == OniNodeType::depth &&
           !written_.contains({node.id, std::string(oni_property::kMaxDepth)})) {
-        writer_->add_int(node.id, oni_property::kMaxDepth, kMaxDepth);
+        writer_->add_int(node.id, oni_property::kMaxDepth, kOniMaxDepth);
         report_.notes.push_back(fmt::format("added xnDeviceMaxDepth to node {}", node.id));
       }
     }

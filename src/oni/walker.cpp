@@ -89,14 +89,14 @@ std::optional<OniRecord> OniWalker::next() {
 // The first position from `from` on of a record that another record or the end of the file follows; the begin
 // of the zero tail if there is none. Sets ahead_ to that record.
 std::uint64_t OniWalker::find_record(std::uint64_t from) {
-  static constexpr char kMagic[4] = {'N', 'I', 'R', '\0'};
   while (from < zero_tail_) {
     const std::size_t got = file_.read(from, chunk_);
-    if (got < sizeof kMagic) break;
+    if (got < kOniRecordMagic.size()) break;
     const std::uint8_t* at = chunk_.data();
     const std::uint8_t* end = chunk_.data() + got;
-    while ((at = static_cast<const std::uint8_t*>(
-                ::memmem(at, static_cast<std::size_t>(end - at), kMagic, sizeof kMagic))) != nullptr) {
+    while ((at = static_cast<const std::uint8_t*>(::memmem(
+                at, static_cast<std::size_t>(end - at), kOniRecordMagic.data(), kOniRecordMagic.size()))) !=
+           nullptr) {
       const std::uint64_t position = from + static_cast<std::uint64_t>(at - chunk_.data());
       const auto candidate = record_at(position);
       if (candidate && candidate->type >= OniRecordType::node_added_1004 &&
@@ -106,7 +106,7 @@ std::uint64_t OniWalker::find_record(std::uint64_t from) {
       }
       ++at;
     }
-    from += got - (sizeof kMagic - 1);
+    from += got - (kOniRecordMagic.size() - 1);
   }
   ahead_.reset();
   return zero_tail_;

@@ -11,6 +11,7 @@
 
 #include "core/depth_units.hpp"
 #include "core/error.hpp"
+#include "core/frame_source.hpp"
 #include "core/text.hpp"
 #include "core/version.hpp"
 #include "oni/properties.hpp"
@@ -18,10 +19,7 @@
 namespace saccade {
 namespace {
 
-using namespace oni_property;
-
 constexpr std::uint32_t kDepthNode = 1, kColourNode = 2;
-constexpr int kMaxStored = 65535;  // that the file declares; readings reach kLargestStoredDepth
 constexpr float kFineReach_mm = kLargestStoredDepth / 10.0f;
 
 OniCodec codec_of(OniDepthCodec codec) {
@@ -108,24 +106,24 @@ void OniWriter::add_stream(std::uint32_t id, const Frame& frame) {
   const std::vector<std::uint8_t> mode = mode_bytes(size_, options_.rate_hz);
   records_.add_int(id, "oniRequiredFrameSize", static_cast<std::uint64_t>(size_.area()) * (depth ? 2 : 3));
   records_.add_int(id, "xnIsGenerating", 1);
-  if (depth) records_.add_int(id, kMaxDepth, kMaxStored);
+  if (depth) records_.add_int(id, oni_property::kMaxDepth, kOniMaxDepth);
   records_.add_int(id, "xnSupportedMapOutputModesCount", 1);
   general("xnSupportedMapOutputModes", mode);
-  general(kMode, mode);
+  general(oni_property::kMode, mode);
   const OniPixelFormat format = !depth       ? OniPixelFormat::rgb888
                                 : fine_unit_ ? OniPixelFormat::depth_100um
                                              : OniPixelFormat::depth_1mm;
-  records_.add_int(id, kXnFormat, depth ? 4 : 1);
-  records_.add_int(id, kOniFormat, static_cast<std::uint64_t>(format));
+  records_.add_int(id, oni_property::kXnFormat, depth ? 4 : 1);
+  records_.add_int(id, oni_property::kOniFormat, static_cast<std::uint64_t>(format));
   add_intrinsics(id, frame);
-  general(kCropping, std::array<std::uint8_t, 12>{});
-  records_.add_int(id, kMirror, 0);
+  general(oni_property::kCropping, std::array<std::uint8_t, 12>{});
+  records_.add_int(id, oni_property::kMirror, 0);
   if (!depth) return;
-  if (has_colour_) records_.add_int(id, kRegistered, 1);
+  if (has_colour_) records_.add_int(id, oni_property::kRegistered, 1);
   ByteBuilder version;
   for (const char c : fmt::format("Saccade {}", kVersion)) version.put(c);
   version.put(char{0});
-  records_.add_property(id, OniRecordType::string_property, kWrittenBy, version.bytes());
+  records_.add_property(id, OniRecordType::string_property, oni_property::kWrittenBy, version.bytes());
 }
 
 // The field of view for other players, and the exact camera for Saccade.
@@ -136,9 +134,9 @@ void OniWriter::add_intrinsics(std::uint32_t id, const Frame& frame) {
   fov.put(2 * std::atan(size_.width / 2.0 / camera.fx));
   fov.put(2 * std::atan(size_.height / 2.0 / camera.fy));
   for (const double value : {camera.fx, camera.fy, camera.cx, camera.cy}) exact.put(value);
-  records_.add_property(id, OniRecordType::general_property, kFov, fov.bytes());
-  records_.add_property(id, OniRecordType::general_property, kIntrinsics, exact.bytes());
-  records_.add_int(id, kIntrinsicsGuessed, camera.origin == IntrinsicsOrigin::guess ? 1 : 0);
+  records_.add_property(id, OniRecordType::general_property, oni_property::kFov, fov.bytes());
+  records_.add_property(id, OniRecordType::general_property, oni_property::kIntrinsics, exact.bytes());
+  records_.add_int(id, oni_property::kIntrinsicsGuessed, camera.origin == IntrinsicsOrigin::guess ? 1 : 0);
 }
 
 // Converts depth in mm to units, in stored_.
@@ -205,7 +203,7 @@ void OniWriter::write(const Frame& frame) {
   encode_depth();
   const bool with_colour = encode_colour(frame.colour);
   if (counts_.dropped != written_drops_) {
-    records_.add_int(kDepthNode, kDropped, counts_.dropped);
+    records_.add_int(kDepthNode, oni_property::kDropped, counts_.dropped);
     written_drops_ = counts_.dropped;
   }
   const auto time = static_cast<std::uint64_t>(std::max<std::int64_t>(0, frame.timestamp_us - origin_us_));
@@ -232,8 +230,9 @@ void OniWriter::stop_for_full_disk() {
 }
 
 void OniWriter::add_closing_properties() {
-  if (counts_.dropped != written_drops_) records_.add_int(kDepthNode, kDropped, counts_.dropped);
-  if (counts_.rounded != 0) records_.add_int(kDepthNode, kRounded, counts_.rounded);
+  if (counts_.dropped != written_drops_)
+    records_.add_int(kDepthNode, oni_property::kDropped, counts_.dropped);
+  if (counts_.rounded != 0) records_.add_int(kDepthNode, oni_property::kRounded, counts_.rounded);
 }
 
 void OniWriter::close() {

@@ -25,25 +25,25 @@ namespace {
 constexpr AVRational kMillisecond = {1, 1000};
 constexpr int kSlices = 4;  // parts of an image that are compressed at the same time; the bytes depend on it
 
-struct FreeContext {
-  void operator()(AVCodecContext* context) const { avcodec_free_context(&context); }
-};
-struct FreeFrame {
-  void operator()(AVFrame* frame) const { av_frame_free(&frame); }
-};
-struct FreePacket {
-  void operator()(AVPacket* packet) const { av_packet_free(&packet); }
-};
-struct CloseFormat {
-  void operator()(AVFormatContext* format) const {
-    if (format->pb != nullptr) avio_closep(&format->pb);
-    avformat_free_context(format);
-  }
-};
-
 }  // namespace
 
 struct Ffv1Video::Encoder {
+  struct FreeContext {
+    void operator()(AVCodecContext* context) const { avcodec_free_context(&context); }
+  };
+  struct FreeFrame {
+    void operator()(AVFrame* frame) const { av_frame_free(&frame); }
+  };
+  struct FreePacket {
+    void operator()(AVPacket* packet) const { av_packet_free(&packet); }
+  };
+  struct CloseFormat {
+    void operator()(AVFormatContext* format) const {
+      if (format->pb != nullptr) avio_closep(&format->pb);
+      avformat_free_context(format);
+    }
+  };
+
   Encoder(const std::filesystem::path& file, cv::Size size, Pixels pixels, double rate_hz)
       : path(file.string()), frame(av_frame_alloc()), packet(av_packet_alloc()) {
     av_log_set_level(AV_LOG_QUIET);  // failures are reported by their codes

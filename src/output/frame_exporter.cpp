@@ -90,7 +90,7 @@ class VideoExporter final : public FrameExporter {
   DepthLosses losses() const override { return losses_; }
 
  private:
-  double rate_hz() const { return info_.rate_hz > 0 ? info_.rate_hz : 30; }
+  double rate_hz() const { return info_.rate_hz > 0 ? info_.rate_hz : kDefaultRateHz; }
 
   void begin(const Frame& frame) {
     unit_mm_ = info_.depth_unit_mm > 0 ? info_.depth_unit_mm : unit_for(frame.depth_mm);

@@ -27,11 +27,14 @@ enum class FramePolicy {
   newest,       ///< capture never waits; a frame that a newer one overtakes is dropped
 };
 
+/// Slots that keep every stage busy: one captured, one computed, one waiting on either side.
+inline constexpr int kSlotsInFlight = 4;
+
 struct PipelineOptions {
   FrameSettings frames;  ///< its limit counts captured frames (every_frame) or results (newest)
   FramePolicy policy = FramePolicy::every_frame;
   /// Frames in memory: >= 2, and >= 3 for `newest`, of which the consumer may hold all but two.
-  int slots = 4;
+  int slots = kSlotsInFlight;
   /// Called for each frame that cannot be used: on the capture thread, or on the compute thread if the model
   /// cannot use it (it throws Error, unreadable, e.g. for a frame without colour).
   std::function<void(std::int64_t index, const std::string& reason)> on_rejected;

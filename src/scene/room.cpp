@@ -5,7 +5,7 @@
 namespace saccade::scene {
 namespace {
 
-constexpr double kHalfWidth = 2100, kBack = 2600, kFront = -2600, kCeiling = 2600;  // the room, mm
+constexpr double kRoomHalfWidth = 2100, kBack = 2600, kFront = -2600, kCeiling = 2600;  // the room, mm
 
 // Adds parts with one label at a place on the floor, turned about z.
 class Furniture {
@@ -35,11 +35,12 @@ class Furniture {
 void add_shell(Scene& scene, double side, Random& random) {
   const Finish wall{random.between(0.95, 1.05) * cv::Vec3d(0.72, 0.77, 0.78), Texture::speckled, 0};
   Furniture shell(scene, 0, Vector3d::Zero(), 0);
-  shell.block(0, 0, -100, 2 * kHalfWidth, kBack - kFront, 100, {{0.40, 0.54, 0.68}, Texture::planks, 0.05});
-  shell.block(0, kBack + 50, 0, 2 * kHalfWidth + 200, 100, kCeiling, wall);
+  shell.block(0, 0, -100, 2 * kRoomHalfWidth, kBack - kFront, 100,
+              {{0.40, 0.54, 0.68}, Texture::planks, 0.05});
+  shell.block(0, kBack + 50, 0, 2 * kRoomHalfWidth + 200, 100, kCeiling, wall);
   for (const double x : {-1.0, 1.0})
-    shell.block(x * (kHalfWidth + 50), 0, 0, 100, kBack - kFront, kCeiling, wall);
-  shell.block(0, 0, kCeiling, 2 * kHalfWidth, kBack - kFront, 100, {{0.8, 0.8, 0.8}});
+    shell.block(x * (kRoomHalfWidth + 50), 0, 0, 100, kBack - kFront, kCeiling, wall);
+  shell.block(0, 0, kCeiling, 2 * kRoomHalfWidth, kBack - kFront, 100, {{0.8, 0.8, 0.8}});
   // Flat pictures: structure in the image, none in the depth.
   const Finish frame{{0.2, 0.25, 0.3}};
   for (int i = 0; i < 2; ++i) {

@@ -9,7 +9,7 @@ namespace saccade::scene {
 namespace {
 
 // The table top, mm; its near edge is outside the image.
-constexpr double kHalfWidth = 700, kNear = -900, kFar = 480, kThickness = 30, kHeight = 740;
+constexpr double kTopHalfWidth = 700, kNear = -900, kFar = 480, kThickness = 30, kHeight = 740;
 // Where objects stand, mm: narrower towards the camera, so that all are in the image of frame 0.
 constexpr double kNear_y = -200, kNear_x = 240, kFar_y = 290, kFar_x = 360;
 constexpr double kGap = 8;  // least distance between two objects, mm
@@ -117,7 +117,7 @@ bool find_place(const std::vector<Place>& taken, double radius, Random& random, 
 void add_surroundings(Scene& scene, Random& random) {
   const Matrix3d upright = Matrix3d::Identity();
   const double warm = random.between(0.9, 1.05);
-  scene.parts.push_back({Box{{kHalfWidth, (kFar - kNear) / 2, kThickness / 2}},
+  scene.parts.push_back({Box{{kTopHalfWidth, (kFar - kNear) / 2, kThickness / 2}},
                          {0, (kNear + kFar) / 2, -kThickness / 2},
                          upright,
                          0,
@@ -127,7 +127,7 @@ void add_surroundings(Scene& scene, Random& random) {
   for (const double x : {-1.0, 1.0})
     for (const double y : {kNear + 60, kFar - 60})
       scene.parts.push_back({Box{{25, 25, (kHeight - kThickness) / 2}},
-                             {x * (kHalfWidth - 60), y, -(kHeight + kThickness) / 2},
+                             {x * (kTopHalfWidth - 60), y, -(kHeight + kThickness) / 2},
                              upright,
                              0,
                              {0.3, 0.42, 0.55},

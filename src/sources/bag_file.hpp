@@ -30,6 +30,9 @@ struct BagPlace {
 /// The largest message that is read, bytes: an image of the largest size in floats, and its header.
 inline constexpr std::uint32_t kLargestMessage = 68u << 20;
 
+/// Bytes of a message that scan() passes on if it is not in a chunk.
+inline constexpr std::uint32_t kMessageBeginning = 256;
+
 /// A recording of messages: ROS 1 .bag, ROS 2 .mcap and .db3. Every length in it is checked before it is
 /// used. One thread at a time.
 class BagFile {

@@ -20,9 +20,7 @@ namespace saccade {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr std::string_view kEndings[] = {".bag", ".mcap", ".db3"};
-constexpr std::size_t kMostNotes = 5;  // of problems, one by one
-constexpr double kDefaultRateHz = 30;
+constexpr std::string_view kBagEndings[] = {".bag", ".mcap", ".db3"};
 
 // By the lower quartile of the distances of the stamps, since messages may be missing.
 double measure_rate_hz(const std::vector<BagMessage>& messages) {
@@ -189,7 +187,7 @@ class BagSource final : public FrameSource {
 };
 
 bool is_bag(const fs::path& file) {
-  return std::ranges::count(kEndings, std::string_view(ending_of(file))) > 0;
+  return std::ranges::count(kBagEndings, std::string_view(ending_of(file))) > 0;
 }
 
 // "NAME.mcap.zstd": the recorder of ROS 2 can compress its files as a whole.
@@ -218,7 +216,7 @@ std::unique_ptr<BagFile> open_bag(const fs::path& path) {
 std::unique_ptr<BagFile> open_ros2_folder(const fs::path& folder, std::vector<std::string>& notes) {
   std::vector<BagPart> parts;
   std::optional<Error> first_error;
-  auto files = files_of(folder, {std::begin(kEndings), std::end(kEndings)});
+  auto files = files_of(folder, {std::begin(kBagEndings), std::end(kBagEndings)});
   for (const auto& [stem, path] : files_of(folder, {".zstd"}))
     if (is_packed_bag(path))
       files.emplace(fs::path(stem).stem().string(), path);  // unless it is there unpacked
@@ -240,7 +238,7 @@ extern const SourceKind kBagKind = {
     .help =
         "a recording of ROS 1 (.bag) or ROS 2 (.mcap, .db3, or its folder); --topics chooses among several",
     .recognised_by = "metadata.yaml beside an .mcap or .db3",
-    .endings = kEndings,
+    .endings = kBagEndings,
     .recognises = is_ros2,
     .open = [](const SourceInput& input, const SourceOptions& options) -> std::unique_ptr<FrameSource> {
       std::vector<std::string> notes;

@@ -12,7 +12,7 @@ namespace saccade {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr std::string_view kEndings[] = {".pcd", ".ply"};
+constexpr std::string_view kCloudEndings[] = {".pcd", ".ply"};
 
 // The image beside NAME.pcd: NAME.png or .jpg, or NNNN_rgb.png beside NNNN_cloud.pcd; empty if there is none.
 // A PNG of 16-bit grey is the depth of the cloud, not its colour.
@@ -72,7 +72,7 @@ extern const SourceKind kCloudsKind = {
     .help =
         "organised point clouds: numbered .pcd, or .ply as export writes them, with colour; or a single one",
     .recognised_by = "a file that ends in .pcd or .ply",
-    .endings = kEndings,
+    .endings = kCloudEndings,
     .recognises = has_clouds,
     .open = [](const SourceInput& input, const SourceOptions& options) -> std::unique_ptr<FrameSource> {
       if (input.type == SourceInput::Type::folder)

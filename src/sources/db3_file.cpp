@@ -16,8 +16,6 @@ namespace {
 
 using Bytes = BagFile::Bytes;
 
-constexpr int kBeginning = 256;  // bytes of a message that scan() reads
-
 struct CloseDatabase {
   void operator()(sqlite3* database) const { sqlite3_close_v2(database); }
 };
@@ -157,7 +155,7 @@ class Db3File final : public BagFile {
     try {
       const int size = sqlite3_blob_bytes(open_blob(row).get());
       if (size < 0 || static_cast<std::uint32_t>(size) > kLargestMessage) return;
-      message_.resize(static_cast<std::size_t>(std::min(size, kBeginning)));
+      message_.resize(std::min(static_cast<std::uint32_t>(size), kMessageBeginning));
       read_blob(row, message_);
       visit(topic, time_ns, message_, {static_cast<std::uint64_t>(row), 0, static_cast<std::uint32_t>(size)});
     } catch (const std::runtime_error& error) {

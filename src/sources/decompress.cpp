@@ -14,7 +14,7 @@ namespace {
 
 using Bytes = std::span<const std::uint8_t>;
 
-constexpr std::uint64_t kMost = 512u << 20;
+constexpr std::uint64_t kLargestChunk = 512u << 20;
 constexpr std::size_t kStep = 1u << 20;
 
 std::runtime_error damaged() { return std::runtime_error("its compressed data are damaged"); }
@@ -74,7 +74,7 @@ void decompress_bz2(Bytes data, std::uint64_t size, std::vector<std::uint8_t>& o
   decompress_stream(data, size, out, [&](Bytes& in, std::span<std::uint8_t> to, bool& done) {
     // The library does not write to its input.
     stream.next_in = const_cast<char*>(reinterpret_cast<const char*>(in.data()));
-    stream.avail_in = static_cast<unsigned>(std::min<std::size_t>(in.size(), kMost));
+    stream.avail_in = static_cast<unsigned>(std::min<std::size_t>(in.size(), kLargestChunk));
     stream.next_out = reinterpret_cast<char*>(to.data());
     stream.avail_out = static_cast<unsigned>(to.size());
     const unsigned offered = stream.avail_in;
@@ -89,7 +89,7 @@ void decompress_bz2(Bytes data, std::uint64_t size, std::vector<std::uint8_t>& o
 }  // namespace
 
 void decompress(std::string_view method, Bytes data, std::uint64_t size, std::vector<std::uint8_t>& out) {
-  if (size > kMost) throw std::runtime_error("it claims more than 512 MB in one chunk");
+  if (size > kLargestChunk) throw std::runtime_error("it claims more than 512 MB in one chunk");
   if (method.empty() || method == "none") {
     if (data.size() != size) throw std::runtime_error("its size is not that of its data");
     out.assign(data.begin(), data.end());

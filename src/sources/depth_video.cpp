@@ -33,7 +33,7 @@ Bytes bytes_of(const AVPacket& packet) {
   return {packet.data, packet.size > 0 ? static_cast<std::size_t>(packet.size) : 0};
 }
 
-bool is_png(Bytes packet) {
+bool begins_as_png(Bytes packet) {
   constexpr std::array<std::uint8_t, 4> kSignature = {0x89, 'P', 'N', 'G'};
   return packet.size() > 8 && std::equal(kSignature.begin(), kSignature.end(), packet.begin());
 }
@@ -219,7 +219,7 @@ Route route_of(VideoFile& file) {
     throw unreadable("no video that can be read", path, "the file may be truncated or not a video");
   const AVCodecParameters& codec = file.codec();
   if (is_grey16(codec.format)) {
-    if (is_png(bytes_of(*first))) return Route::png;
+    if (begins_as_png(bytes_of(*first))) return Route::png;
     if (codec.codec_id == AV_CODEC_ID_RAWVIDEO) return Route::raw;
     if (codec.format == AV_PIX_FMT_GRAY16LE && codec.codec_id == AV_CODEC_ID_FFV1) return Route::ffv1;
     throw unreadable("16-bit grey in a codec that need not keep every bit", path, kExactRoutes);

@@ -12,7 +12,7 @@ namespace saccade {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr std::string_view kEnding = ".png";
+constexpr std::string_view kPngEnding = ".png";
 constexpr int kWidest = 18;  // digits of a number
 
 // A name with one number, as printf writes it: "depth_%04d.png".
@@ -43,7 +43,7 @@ struct NamePattern {
 // std::nullopt for a name that is no pattern, or has more than one '%'.
 std::optional<NamePattern> parse_pattern(const std::string& name) {
   const auto percent = name.find('%');
-  if (percent == std::string::npos || !name.ends_with(kEnding)) return std::nullopt;
+  if (percent == std::string::npos || !name.ends_with(kPngEnding)) return std::nullopt;
   NamePattern pattern;
   pattern.before = name.substr(0, percent);
   const char* at = name.data() + percent + 1;
@@ -68,7 +68,7 @@ std::optional<NamePattern> pattern_of(const SourceInput& input) {
 // The colour image beside a depth image: "rgb" for the last "depth" of its name.
 fs::path colour_of(const FolderNames& names, const std::string& depth) {
   constexpr std::string_view kDepth = "depth";
-  const std::string stem = depth.substr(0, depth.size() - kEnding.size());
+  const std::string stem = depth.substr(0, depth.size() - kPngEnding.size());
   const auto found = stem.rfind(kDepth);
   if (found == std::string::npos) return {};
   for (const char* word : {"rgb", "color", "colour"}) {
@@ -91,7 +91,7 @@ FolderListing list_one(const SourceInput& input) {
 }
 
 bool is_png_file(const SourceInput& input) {
-  return input.type == SourceInput::Type::file && input.ending == kEnding;
+  return input.type == SourceInput::Type::file && input.ending == kPngEnding;
 }
 
 FolderListing list_images(const SourceInput& input) {

@@ -15,11 +15,11 @@
 namespace saccade {
 namespace {
 
-constexpr std::array<std::uint8_t, 8> kMagic = {0x89, 'M', 'C', 'A', 'P', '0', '\r', '\n'};
-constexpr std::uint8_t kSchema = 3, kChannel = 4, kMessage = 5, kChunk = 6, kDataEnd = 15, kFooter = 2;
+constexpr std::array<std::uint8_t, 8> kMcapMagic = {0x89, 'M', 'C', 'A', 'P', '0', '\r', '\n'};
+constexpr std::uint8_t kMcapSchema = 3, kMcapChannel = 4, kMcapMessage = 5, kMcapChunk = 6, kMcapDataEnd = 15,
+                       kMcapFooter = 2;
 constexpr std::size_t kRecordHeader = 9, kMessageFields = 22;
 constexpr std::uint64_t kLargestSmallRecord = 16u << 20;  // of schemas and channels
-constexpr std::size_t kBeginning = 256;                   // bytes of a message outside of a chunk
 
 using Bytes = BagFile::Bytes;
 
@@ -32,7 +32,7 @@ std::string take_text(ByteCursor& cursor) {
 }
 
 template <typename T>
-T take(ByteCursor& cursor) {
+T take_field(ByteCursor& cursor) {
   const auto value = cursor.take<T>();
   if (!value) throw std::runtime_error("a record is too short");
   return *value;
@@ -45,9 +45,9 @@ std::string plain_type(std::string type) {
 
 class McapFile final : public ChunkedBag {
  public:
-  explicit McapFile(const std::filesystem::path& path) : ChunkedBag(path, kMagic.size()) {
-    std::array<std::uint8_t, kMagic.size()> magic{};
-    if (file_.read(0, magic) != magic.size() || magic != kMagic)
+  explicit McapFile(const std::filesystem::path& path) : ChunkedBag(path, kMcapMagic.size()) {
+    std::array<std::uint8_t, kMcapMagic.size()> magic{};
+    if (file_.read(0, magic) != magic.size() || magic != kMcapMagic)
       throw unreadable("not an MCAP file", file_.name(), "is it the right file?");
   }
 
@@ -59,16 +59,16 @@ class McapFile final : public ChunkedBag {
     const std::uint8_t type = header[0];
     const auto size = load_le<std::uint64_t>(&header[1]);
     const std::uint64_t content = position + kRecordHeader;
-    if (type == kDataEnd || type == kFooter) return false;
+    if (type == kMcapDataEnd || type == kMcapFooter) return false;
     if (size > file_.size() - content) throw std::runtime_error("the file is truncated, or was not closed");
-    if (type == kSchema || type == kChannel) {
+    if (type == kMcapSchema || type == kMcapChannel) {
       if (size > kLargestSmallRecord) throw std::runtime_error("a record is too large");
       fill(content, size, message_);
       take_definition(type, message_);
-    } else if (type == kMessage && size >= kMessageFields) {
-      fill(content, std::min<std::uint64_t>(size, kMessageFields + kBeginning), message_);
+    } else if (type == kMcapMessage && size >= kMessageFields) {
+      fill(content, std::min<std::uint64_t>(size, kMessageFields + kMessageBeginning), message_);
       give(message_, size, {0, content, 0}, visit);
-    } else if (type == kChunk) {
+    } else if (type == kMcapChunk) {
       scan_chunk(content, visit);
     }
     position = content + size;
@@ -83,8 +83,8 @@ class McapFile final : public ChunkedBag {
       at += kRecordHeader;
       if (size > chunk.size() - at) throw std::runtime_error("a record is longer than its chunk");
       const Bytes record = chunk.subspan(at, size);
-      if (type == kSchema || type == kChannel) take_definition(type, record);
-      if (type == kMessage && size >= kMessageFields) give(record, size, {content, at, 0}, visit);
+      if (type == kMcapSchema || type == kMcapChannel) take_definition(type, record);
+      if (type == kMcapMessage && size >= kMessageFields) give(record, size, {content, at, 0}, visit);
       at += size;
     }
   }
@@ -94,12 +94,12 @@ class McapFile final : public ChunkedBag {
     constexpr std::uint64_t kMostCompressed = 512u << 20;
     std::array<std::uint8_t, kMostHeader> header{};
     ByteCursor cursor(std::span<const std::uint8_t>(header).first(file_.read(content, header)));
-    static_cast<void>(take<std::uint64_t>(cursor));  // first and last time
-    static_cast<void>(take<std::uint64_t>(cursor));
-    const auto size = take<std::uint64_t>(cursor);
-    const auto checksum = take<std::uint32_t>(cursor);
+    static_cast<void>(take_field<std::uint64_t>(cursor));  // first and last time
+    static_cast<void>(take_field<std::uint64_t>(cursor));
+    const auto size = take_field<std::uint64_t>(cursor);
+    const auto checksum = take_field<std::uint32_t>(cursor);
     const std::string method = take_text(cursor);
-    const auto compressed = take<std::uint64_t>(cursor);
+    const auto compressed = take_field<std::uint64_t>(cursor);
     const std::uint64_t begin = content + kMostHeader - cursor.rest().size();
     if (compressed > kMostCompressed || begin > file_.size() || compressed > file_.size() - begin)
       throw std::runtime_error("it is longer than the file");
@@ -111,13 +111,13 @@ class McapFile final : public ChunkedBag {
 
   void take_definition(std::uint8_t type, Bytes record) {
     ByteCursor cursor(record);
-    const auto id = take<std::uint16_t>(cursor);
-    if (type == kSchema) {
+    const auto id = take_field<std::uint16_t>(cursor);
+    if (type == kMcapSchema) {
       schemas_[id] = take_text(cursor);
       return;
     }
     if (channels_.contains(id)) return;  // repeated in each chunk
-    const auto schema = take<std::uint16_t>(cursor);
+    const auto schema = take_field<std::uint16_t>(cursor);
     BagTopic topic;
     topic.name = take_text(cursor);
     topic.encoding = take_text(cursor) == "ros1" ? BagEncoding::ros1 : BagEncoding::cdr;

@@ -4,9 +4,9 @@
 namespace saccade {
 namespace {
 
-constexpr std::string_view kEndings[] = {".mat"};
+constexpr std::string_view kNyuEndings[] = {".mat"};
 
-std::unique_ptr<FrameSource> open(const SourceInput& input, const SourceOptions& options) {
+std::unique_ptr<FrameSource> open_file(const SourceInput& input, const SourceOptions& options) {
   return open_nyu(input.path, options.input);
 }
 
@@ -17,8 +17,8 @@ extern const SourceKind kNyuKind = {
     .written = "FILE.mat",
     .help = "the labelled data set of NYU Depth V2 (MATLAB 7.3)",
     .recognised_by = "the ending",
-    .endings = kEndings,
-    .open = open,
+    .endings = kNyuEndings,
+    .open = open_file,
 };
 
 }  // namespace saccade

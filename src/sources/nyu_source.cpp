@@ -16,8 +16,8 @@ namespace saccade {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr double kRateHz = 30;  // the images are single views: times only number them
-constexpr const char* kHint = "expected the labelled .mat of NYU Depth V2 (MATLAB 7.3)";
+constexpr double kNyuRateHz = 30;  // the images are single views: times only number them
+constexpr const char* kNyuHint = "expected the labelled .mat of NYU Depth V2 (MATLAB 7.3)";
 
 // 1, 2, .. for each pair of class and instance that occurs, in their order.
 cv::Mat1w number_objects(const cv::Mat1w& classes, const cv::Mat1w& instances) {
@@ -46,7 +46,7 @@ Hdf5File open_file(const fs::path& path) {
   } catch (const Error&) {
     throw;
   } catch (const std::runtime_error& error) {
-    throw unreadable(error.what(), path.string(), kHint);
+    throw unreadable(error.what(), path.string(), kNyuHint);
   }
 }
 
@@ -58,11 +58,11 @@ class NyuSource : public FrameSource {
     try {
       open_arrays();
     } catch (const std::runtime_error& error) {
-      throw unreadable(error.what(), path_, kHint);
+      throw unreadable(error.what(), path_, kNyuHint);
     }
     info_.uri = path_;
     info_.kind = "nyu";
-    info_.rate_hz = kRateHz;
+    info_.rate_hz = kNyuRateHz;
     info_.intrinsics = Intrinsics::guess_for(info_.size);
     // The RGB camera of the data set's toolbox, which counts pixels from 1; depth is registered to it.
     if (info_.size == cv::Size(640, 480))
@@ -82,7 +82,7 @@ class NyuSource : public FrameSource {
   ReadResult read(Frame& frame, std::chrono::milliseconds) override {
     if (next_ < 0 || next_ >= info_.frame_count) return {ReadStatus::end, ""};
     frame.index = next_++;
-    frame.timestamp_us = std::llround(static_cast<double>(frame.index) * 1e6 / kRateHz);
+    frame.timestamp_us = std::llround(static_cast<double>(frame.index) * 1e6 / kNyuRateHz);
     frame.name.clear();
     frame.intrinsics = info_.intrinsics;
     frame.truth = {};

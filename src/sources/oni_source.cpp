@@ -10,13 +10,13 @@
 #include "core/error.hpp"
 #include "core/fit_colour.hpp"
 #include "core/text.hpp"
+#include "sources/frame_fields.hpp"
 #include "sources/source_kind.hpp"
 
 namespace saccade {
 namespace {
 
 constexpr std::uint64_t kJump_us = 10'000'000;  // a larger step of time is a note
-constexpr std::size_t kMostNotes = 5;           // of problems, one by one
 
 const OniNode& need_depth(const Recording& recording) {
   const OniNode* depth = main_depth(recording);
@@ -211,7 +211,7 @@ Outcome OniSource::read_colour(std::size_t depth_frame, cv::Mat3b& colour) {
 }
 
 namespace {
-constexpr std::string_view kEndings[] = {".oni"};
+constexpr std::string_view kOniEndings[] = {".oni"};
 }
 
 extern const SourceKind kOniKind = {
@@ -219,7 +219,7 @@ extern const SourceKind kOniKind = {
     .written = "FILE.oni",
     .help = "a recording of OpenNI 1.x or OpenNI2, also a truncated or damaged one",
     .recognised_by = "the ending, or the first bytes NI10",
-    .endings = kEndings,
+    .endings = kOniEndings,
     .recognises = [](const SourceInput& input) { return input.head.starts_with("NI10"); },
     .open = [](const SourceInput& input, const SourceOptions& options) -> std::unique_ptr<FrameSource> {
       return std::make_unique<OniSource>(input.path, options.input);

@@ -9,12 +9,12 @@ namespace {
 
 #ifdef SACCADE_OPENNI2
 constexpr bool kBuilt = true;
-std::unique_ptr<FrameSource> open(const SourceInput& input, const SourceOptions& options) {
+std::unique_ptr<FrameSource> open_sensor(const SourceInput& input, const SourceOptions& options) {
   return std::make_unique<OpenNi2Source>(input.uri, options.sensor);
 }
 #else
 constexpr bool kBuilt = false;
-std::unique_ptr<FrameSource> open(const SourceInput&, const SourceOptions&) {
+std::unique_ptr<FrameSource> open_sensor(const SourceInput&, const SourceOptions&) {
   throw not_in_this_build("OpenNI2", "SACCADE_OPENNI2");
 }
 #endif
@@ -30,7 +30,7 @@ extern const SourceKind kOpenNi2Kind = {
     .recognised_by = "openni2",
     .recognises =
         [](const SourceInput& input) { return input.uri == "openni2" || input.uri.starts_with("openni2:"); },
-    .open = open,
+    .open = open_sensor,
     .is_path = false,
     .is_device = true,
     .built = kBuilt,

@@ -35,7 +35,7 @@ struct Field {
   std::size_t offset = 0;  // in a point, bytes
 };
 
-struct Header {
+struct PcdHeader {
   std::vector<Field> fields;
   cv::Size size;
   std::size_t point_bytes = 0, points = 0;
@@ -45,36 +45,38 @@ struct Header {
   std::optional<std::size_t> rgb;    // likewise
 };
 
-std::runtime_error broken(const std::string& why) { return std::runtime_error("not a sound PCD: " + why); }
+std::runtime_error broken_pcd(const std::string& why) {
+  return std::runtime_error("not a sound PCD: " + why);
+}
 
 std::size_t parse_integer(string_view word, std::size_t most, const char* what) {
   std::size_t value = 0;
   const auto [end, code] = std::from_chars(word.data(), word.data() + word.size(), value);
   if (code != std::errc{} || end != word.data() + word.size() || value > most)
-    throw broken(fmt::format("{} is not an integer up to {}", what, most));
+    throw broken_pcd(fmt::format("{} is not an integer up to {}", what, most));
   return value;
 }
 
 // Calls set(field, word) for each field with its word of a header line.
 template <typename Set>
-void for_each_field(Header& header, const std::vector<string_view>& words, Set set) {
+void for_each_field(PcdHeader& header, const std::vector<string_view>& words, Set set) {
   if (words.size() - 1 != header.fields.size())
-    throw broken(fmt::format("{} is not given for each field", words[0]));
+    throw broken_pcd(fmt::format("{} is not given for each field", words[0]));
   for (std::size_t i = 1; i < words.size(); ++i) set(header.fields[i - 1], words[i]);
 }
 
-void read_line(Header& header, const std::vector<string_view>& words) {
+void read_line(PcdHeader& header, const std::vector<string_view>& words) {
   constexpr std::array<string_view, 11> kKeys = {"VERSION", "FIELDS", "COLUMNS",   "SIZE",   "TYPE", "COUNT",
                                                  "WIDTH",   "HEIGHT", "VIEWPOINT", "POINTS", "DATA"};
   const string_view key = words[0];
   if (std::find(kKeys.begin(), kKeys.end(), key) == kKeys.end())
-    throw broken("its header has an unknown line");
-  if (words.size() < 2) throw broken(fmt::format("nothing follows {}", key));
+    throw broken_pcd("its header has an unknown line");
+  if (words.size() < 2) throw broken_pcd(fmt::format("nothing follows {}", key));
   const auto side = [&](const char* what) {
     return static_cast<int>(parse_integer(words[1], 1u << 30, what));
   };
   if (key == "FIELDS" || key == "COLUMNS") {
-    if (words.size() - 1 > kMostFields) throw broken("too many fields");
+    if (words.size() - 1 > kMostFields) throw broken_pcd("too many fields");
     header.fields.resize(words.size() - 1);
     for_each_field(header, words, [](Field& field, string_view word) { field.name = word; });
   } else if (key == "SIZE") {
@@ -97,26 +99,26 @@ void read_line(Header& header, const std::vector<string_view>& words) {
   }  // VERSION and VIEWPOINT do not matter
 }
 
-void check_header(Header& header) {
+void check_header(PcdHeader& header) {
   const auto [width, height] = header.size;
-  if (width <= 0 || height <= 0) throw broken("no WIDTH or HEIGHT");
+  if (width <= 0 || height <= 0) throw broken_pcd("no WIDTH or HEIGHT");
   if (height == 1) throw std::runtime_error("the cloud is not organised: HEIGHT is 1");
   check_image_size(width, height);
   const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
-  if (header.points != 0 && header.points != pixels) throw broken("POINTS is not WIDTH times HEIGHT");
+  if (header.points != 0 && header.points != pixels) throw broken_pcd("POINTS is not WIDTH times HEIGHT");
   header.points = pixels;
   for (Field& field : header.fields) {
     field.offset = header.point_bytes;
     header.point_bytes += field.size * field.count;
-    if (header.point_bytes > kLargestPoint) throw broken("a point is too large");
+    if (header.point_bytes > kLargestPoint) throw broken_pcd("a point is too large");
   }
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const std::string name(1, "xyz"[axis]);
     const auto field = std::find_if(header.fields.begin(), header.fields.end(),
                                     [&](const Field& f) { return f.name == name; });
-    if (field == header.fields.end()) throw broken("no field " + name);
+    if (field == header.fields.end()) throw broken_pcd("no field " + name);
     if (field->type != 'F' || field->count != 1 || (field->size != 4 && field->size != 8))
-      throw broken(fmt::format("field {} is not one float of 4 or 8 bytes", name));
+      throw broken_pcd(fmt::format("field {} is not one float of 4 or 8 bytes", name));
     header.xyz[axis] = static_cast<std::size_t>(field - header.fields.begin());
   }
   const auto is_colour = [](const Field& f) {
@@ -128,14 +130,14 @@ void check_header(Header& header) {
 
 string_view text_of(Bytes bytes) { return {reinterpret_cast<const char*>(bytes.data()), bytes.size()}; }
 
-Header read_header(Bytes pcd) {
+PcdHeader read_pcd_header(Bytes pcd) {
   constexpr std::size_t kLongestHeader = 1 << 16;
   const string_view text = text_of(pcd.first(std::min(pcd.size(), kLongestHeader)));
-  Header header;
+  PcdHeader header;
   std::size_t begin = 0;
   while (header.encoding.empty()) {
     const std::size_t end = text.find('\n', begin);
-    if (end == string_view::npos) throw broken("its header has no DATA line");
+    if (end == string_view::npos) throw broken_pcd("its header has no DATA line");
     const auto words = words_of(text.substr(begin, end - begin));
     begin = end + 1;
     if (!words.empty() && words[0][0] != '#') read_line(header, words);
@@ -149,7 +151,7 @@ struct Points {
   std::vector<cv::Point3d> places;
   std::vector<cv::Vec3b> colours;  // BGR; empty = none
 
-  explicit Points(const Header& header) : places(header.points), colours(header.rgb ? header.points : 0) {}
+  explicit Points(const PcdHeader& header) : places(header.points), colours(header.rgb ? header.points : 0) {}
 };
 
 cv::Vec3b colour_of(std::uint32_t rgb) {
@@ -158,8 +160,8 @@ cv::Vec3b colour_of(std::uint32_t rgb) {
 }
 
 // The data have the fields of one point side by side, or (by_field) all values of one field side by side.
-Points read_binary(const Header& header, Bytes data, bool by_field) {
-  if (data.size() < header.points * header.point_bytes) throw broken("the file is cut");
+Points read_binary(const PcdHeader& header, Bytes data, bool by_field) {
+  if (data.size() < header.points * header.point_bytes) throw broken_pcd("the file is cut");
   Points points(header);
   const auto value_of = [&](const Field& field, std::size_t point) {
     return data.data() + (by_field ? field.offset * header.points + point * field.size
@@ -177,37 +179,37 @@ Points read_binary(const Header& header, Bytes data, bool by_field) {
   return points;
 }
 
-Points read_compressed(const Header& header, Bytes data) {
+Points read_compressed(const PcdHeader& header, Bytes data) {
   std::array<std::uint32_t, 2> sizes{};  // compressed, uncompressed; little-endian
-  if (data.size() < sizeof(sizes)) throw broken("the file is cut");
+  if (data.size() < sizeof(sizes)) throw broken_pcd("the file is cut");
   std::memcpy(sizes.data(), data.data(), sizeof(sizes));
   if (sizes[1] != header.points * header.point_bytes)
-    throw broken("its uncompressed size is not that of its points");
-  if (sizes[0] > data.size() - sizeof(sizes)) throw broken("the file is cut");
+    throw broken_pcd("its uncompressed size is not that of its points");
+  if (sizes[0] > data.size() - sizeof(sizes)) throw broken_pcd("the file is cut");
   // LZF makes at most 264 bytes of 3; data that claim more are not decompressed.
-  if (sizes[1] / 88 > sizes[0]) throw broken("its compressed data are too short");
+  if (sizes[1] / 88 > sizes[0]) throw broken_pcd("its compressed data are too short");
   std::vector<std::uint8_t> plain(sizes[1]);
   if (!lzf_decompress(data.subspan(sizeof(sizes), sizes[0]), plain))
-    throw broken("its compressed data are damaged");
+    throw broken_pcd("its compressed data are damaged");
   return read_binary(header, plain, true);
 }
 
-double parse_number(string_view word) {
+double parse_coordinate(string_view word) {
   double value = 0;
   const auto [end, code] = std::from_chars(word.data(), word.data() + word.size(), value);
   if (code == std::errc::result_out_of_range) return std::nan("");
-  if (code != std::errc{} || end != word.data() + word.size()) throw broken("a value is no number");
+  if (code != std::errc{} || end != word.data() + word.size()) throw broken_pcd("a value is no number");
   return value;
 }
 
 // The colour of a word: an integer, or (TYPE F) a float with the bits of one.
 std::uint32_t parse_rgb(const Field& field, string_view word) {
-  const double value = parse_number(word);
+  const double value = parse_coordinate(word);
   if (field.type == 'F') return std::bit_cast<std::uint32_t>(static_cast<float>(value));
   return value >= 0 && value < 0x1p32 ? static_cast<std::uint32_t>(value) : 0;
 }
 
-Points read_ascii(const Header& header, string_view text) {
+Points read_ascii(const PcdHeader& header, string_view text) {
   std::vector<std::size_t> columns;  // of the fields
   std::size_t next = 0;
   for (const Field& field : header.fields) {
@@ -218,39 +220,40 @@ Points read_ascii(const Header& header, string_view text) {
                                           columns[header.xyz[2]]};
   std::size_t last = std::ranges::max(xyz);
   if (header.rgb) last = std::max(last, columns[*header.rgb]);
-  if (text.size() / 2 < header.points) throw broken("the file is cut");  // before memory is allocated for it
+  if (text.size() / 2 < header.points)
+    throw broken_pcd("the file is cut");  // before memory is allocated for it
   Points points(header);
   std::size_t begin = 0;
   for (std::size_t i = 0; i < points.places.size(); ++i) {
     std::vector<string_view> words;
     while (words.empty()) {  // blank lines do not count
-      if (begin >= text.size()) throw broken("the file is cut");
+      if (begin >= text.size()) throw broken_pcd("the file is cut");
       const std::size_t end = std::min(text.find('\n', begin), text.size());
       words = words_of(text.substr(begin, end - begin));
       begin = end + 1;
     }
-    if (words.size() <= last) throw broken("a line has too few numbers");
-    points.places[i] = {parse_number(words[xyz[0]]), parse_number(words[xyz[1]]),
-                        parse_number(words[xyz[2]])};
+    if (words.size() <= last) throw broken_pcd("a line has too few numbers");
+    points.places[i] = {parse_coordinate(words[xyz[0]]), parse_coordinate(words[xyz[1]]),
+                        parse_coordinate(words[xyz[2]])};
     if (header.rgb)
       points.colours[i] = colour_of(parse_rgb(header.fields[*header.rgb], words[columns[*header.rgb]]));
   }
   return points;
 }
 
-Points read_points(const Header& header, Bytes data) {
+Points read_points(const PcdHeader& header, Bytes data) {
   if (header.encoding == "ascii") return read_ascii(header, text_of(data));
   if (header.encoding == "binary") return read_binary(header, data, false);
   if (header.encoding == "binary_compressed") return read_compressed(header, data);
-  throw broken("its DATA is not ascii, binary or binary_compressed");
+  throw broken_pcd("its DATA is not ascii, binary or binary_compressed");
 }
 
 }  // namespace
 
-cv::Size read_pcd_size(Bytes pcd) { return read_header(pcd).size; }
+cv::Size read_pcd_size(Bytes pcd) { return read_pcd_header(pcd).size; }
 
 OrganisedCloud read_pcd(Bytes pcd) {
-  const Header header = read_header(pcd);
+  const PcdHeader header = read_pcd_header(pcd);
   const Points points = read_points(header, pcd.subspan(header.data_begin));
   OrganisedCloud cloud{cv::Mat1f(header.size), {}, fit_camera(points.places, header.size)};
   std::ranges::transform(points.places, cloud.depth_mm.begin(), [](const cv::Point3d& p) {

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 #include <opencv2/core/quaternion.hpp>
 
+#include "core/depth_units.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "core/text.hpp"
@@ -20,7 +21,6 @@ namespace saccade {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr double kMmPerMetre = 1000;
 constexpr std::string_view kBlank = " \t\r";
 
 // Calls use(number, line) for each line of a text file that is neither blank nor a comment.

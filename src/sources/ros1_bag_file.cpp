@@ -18,11 +18,10 @@ namespace {
 
 using Bytes = BagFile::Bytes;
 
-constexpr std::string_view kMagic = "#ROSBAG V2.0\n";
-constexpr std::uint8_t kMessage = 2, kChunk = 5, kConnection = 7;
+constexpr std::string_view kRos1Magic = "#ROSBAG V2.0\n";
+constexpr std::uint8_t kRos1Message = 2, kRos1Chunk = 5, kRos1Connection = 7;
 constexpr std::uint32_t kLargestHeader = 1u << 20;
 constexpr std::uint32_t kLargestData = 512u << 20;
-constexpr std::uint32_t kBeginning = 256;  // bytes of a message outside of a chunk
 
 // The fields of a header, without copies.
 class Fields {
@@ -60,9 +59,9 @@ class Fields {
 
 class Ros1BagFile final : public ChunkedBag {
  public:
-  explicit Ros1BagFile(const std::filesystem::path& path) : ChunkedBag(path, kMagic.size()) {
-    std::array<std::uint8_t, kMagic.size()> magic{};
-    if (file_.read(0, magic) != magic.size() || !std::ranges::equal(magic, kMagic))
+  explicit Ros1BagFile(const std::filesystem::path& path) : ChunkedBag(path, kRos1Magic.size()) {
+    std::array<std::uint8_t, kRos1Magic.size()> magic{};
+    if (file_.read(0, magic) != magic.size() || !std::ranges::equal(magic, kRos1Magic))
       throw unreadable("not a ROS bag of version 2.0", file_.name(), "is it the right file?");
   }
 
@@ -96,15 +95,15 @@ class Ros1BagFile final : public ChunkedBag {
     const Record record = record_at(position);
     const Fields fields(record.header);
     switch (fields.number<std::uint8_t>("op")) {
-      case kChunk:
+      case kRos1Chunk:
         scan_chunk(position, visit);
         break;
-      case kConnection:
+      case kRos1Connection:
         fill(record.data, std::min(record.size, kLargestHeader), message_);
         take_connection(fields, message_);
         break;
-      case kMessage:
-        fill(record.data, std::min(record.size, kBeginning), message_);
+      case kRos1Message:
+        fill(record.data, std::min(record.size, kMessageBeginning), message_);
         give(fields, message_, {0, record.data, record.size}, visit);
         break;
       default:
@@ -126,10 +125,10 @@ class Ros1BagFile final : public ChunkedBag {
       const Bytes header = take(), data = take();
       const Fields fields(header);
       const auto op = fields.number<std::uint8_t>("op");
-      if (op == kConnection) take_connection(fields, data);
+      if (op == kRos1Connection) take_connection(fields, data);
       const auto offset = static_cast<std::uint64_t>(data.data() - chunk.data());
       const auto size = static_cast<std::uint32_t>(data.size());
-      if (op == kMessage) give(fields, data, {position, offset, size}, visit);
+      if (op == kRos1Message) give(fields, data, {position, offset, size}, visit);
     }
   }
 

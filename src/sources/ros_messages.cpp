@@ -103,7 +103,6 @@ RosImage read_image(MessageReader reader, bool compressed, bool with_data) {
 
 bool is_compressed(const BagTopic& topic) { return topic.type == "sensor_msgs/CompressedImage"; }
 
-constexpr double kMmPerMetre = 1000;
 constexpr std::array<string_view, 2> kDepth16 = {"16UC1", "mono16"};
 
 // The size of an uncompressed image, whose data hold its pixels.

@@ -24,7 +24,7 @@ namespace {
 
 using std::string_view;
 
-constexpr string_view kScheme = "synthetic:";
+constexpr string_view kSyntheticScheme = "synthetic:";
 
 cv::Affine3d as_affine(const scene::Pose& pose) {
   cv::Matx33d rotation;
@@ -132,9 +132,9 @@ void read_pair(string_view pair, const std::string& uri, std::vector<string_view
 
 SyntheticSpec parse_synthetic(const std::string& uri) {
   string_view rest = uri;
-  if (!rest.starts_with(kScheme))
+  if (!rest.starts_with(kSyntheticScheme))
     throw usage_error("not a synthetic source", uri, "it is written synthetic:NAME?key=value&...");
-  rest.remove_prefix(kScheme.size());
+  rest.remove_prefix(kSyntheticScheme.size());
   const auto question = rest.find('?');
   SyntheticSpec spec;
   spec.scene = rest.substr(0, question);
@@ -234,7 +234,7 @@ extern const SourceKind kSyntheticKind = {
     .written = "synthetic:NAME?KEY=VALUE&...",
     .help = "a ray-cast scene with exact labels: cone, cube, cylinder, sphere, table or room",
     .recognised_by = "synthetic:",
-    .recognises = [](const SourceInput& input) { return input.uri.starts_with(kScheme); },
+    .recognises = [](const SourceInput& input) { return input.uri.starts_with(kSyntheticScheme); },
     .open = [](const SourceInput& input, const SourceOptions&) -> std::unique_ptr<FrameSource> {
       return std::make_unique<SyntheticSource>(input.uri);
     },

@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* kPoses = "groundtruth.txt";
-constexpr const char* kHint = "each line names a time in seconds and a file";
+constexpr const char* kTumHint = "each line names a time in seconds and a file";
 
 struct TimedFile {
   double time_s = 0;
@@ -59,7 +59,8 @@ std::vector<TimedFile> read_tum_list(const fs::path& list) {
     const auto [end, code] = std::from_chars(stamp.data(), stamp.data() + stamp.size(), time_s);
     if (code != std::errc{} || end != stamp.data() + stamp.size() || !std::isfinite(time_s) || name.empty() ||
         has_control_characters(name))
-      throw unreadable("not a 'timestamp filename' line", fmt::format("{}:{}", list.string(), number), kHint);
+      throw unreadable("not a 'timestamp filename' line", fmt::format("{}:{}", list.string(), number),
+                       kTumHint);
     if (!is_inside(name))
       throw unreadable("a file outside of the folder", fmt::format("{}:{}", list.string(), number),
                        "each line names a file below the folder of the list");
@@ -75,7 +76,7 @@ FolderListing list_tum(const fs::path& folder) {
   FolderListing listing;
   listing.mm_per_unit = 1000 / kUnitsPerMetre;
   const auto depth = read_tum_list(folder / "depth.txt");
-  if (depth.empty()) throw unreadable("no frames in the list", (folder / "depth.txt").string(), kHint);
+  if (depth.empty()) throw unreadable("no frames in the list", (folder / "depth.txt").string(), kTumHint);
   std::vector<TimedFile> colour;
   std::error_code code;
   if (fs::exists(folder / "rgb.txt", code)) colour = read_tum_list(folder / "rgb.txt");

@@ -18,6 +18,7 @@ extern "C" {
 }
 
 #include "core/error.hpp"
+#include "core/frame_source.hpp"
 #include "core/image_size.hpp"
 #include "sources/times_file.hpp"
 
@@ -25,9 +26,8 @@ namespace saccade {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr const char* kHint = "the file may be truncated or not a video";
+constexpr const char* kVideoHint = "the file may be truncated or not a video";
 constexpr const char* kBadChecksum = "the file is damaged here: its checksum does not fit";
-constexpr double kDefaultRateHz = 30;
 // Rates and times of a damaged file may be anything.
 constexpr double kLeastRateHz = 1e-3, kMostRateHz = 1e6;
 // How many positions may be reported as lost: not many more than the file could hold if all of its bytes were
@@ -55,7 +55,7 @@ class Options {
 
 Error no_video(int code, const fs::path& path) {
   return unreadable(fmt::format("no video that can be read: {}", reason_of(code)), path.string(),
-                    code == AVERROR(EACCES) ? "check its permissions" : kHint);
+                    code == AVERROR(EACCES) ? "check its permissions" : kVideoHint);
 }
 
 std::span<AVStream* const> streams_of(const AVFormatContext& format) {

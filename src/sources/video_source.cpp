@@ -29,8 +29,8 @@ extern const SourceKind kVideoKind;
 namespace fs = std::filesystem;
 namespace {
 
-constexpr std::string_view kEndings[] = {".mkv", ".nut",  ".mov", ".mp4",  ".m4v",
-                                         ".avi", ".webm", ".mpg", ".mpeg", ".ogv"};
+constexpr std::string_view kVideoEndings[] = {".mkv", ".nut",  ".mov", ".mp4",  ".m4v",
+                                              ".avi", ".webm", ".mpg", ".mpeg", ".ogv"};
 constexpr std::string_view kDepth = "_depth";  // ends the name of a video of depth
 
 void take_meta(SourceInfo& info, const FolderMeta& meta,
@@ -194,7 +194,7 @@ std::unique_ptr<ColourVideo> colour_of_video(const fs::path& path) {
   if (!stem.ends_with(kDepth)) return nullptr;
   stem.resize(stem.size() - kDepth.size());
   std::error_code code;
-  for (const std::string_view ending : kEndings)
+  for (const std::string_view ending : kVideoEndings)
     if (const fs::path colour = path.parent_path() / (stem + "_rgb").append(ending);
         fs::is_regular_file(colour, code))
       return std::make_unique<ColourVideo>(std::make_unique<VideoFile>(colour));
@@ -241,7 +241,7 @@ extern const SourceKind kVideoKind = {
         "a recording of Azure Kinect; a video of 16-bit depth, its colour beside it; any other video as "
         "colour",
     .recognised_by = "the ending",
-    .endings = kEndings,
+    .endings = kVideoEndings,
     .open = [](const SourceInput& input, const SourceOptions& options) -> std::unique_ptr<FrameSource> {
       auto file = std::make_unique<VideoFile>(input.path);
       auto recording = read_azure_recording(*file);

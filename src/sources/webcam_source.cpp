@@ -10,12 +10,12 @@
 namespace saccade {
 namespace {
 
-constexpr std::string_view kScheme = "v4l2:";
+constexpr std::string_view kV4l2Scheme = "v4l2:";
 
 // A camera of the system: colour without depth.
 class WebcamSource final : public FrameSource {
  public:
-  explicit WebcamSource(const std::string& uri) try : camera_(uri.substr(kScheme.size())) {
+  explicit WebcamSource(const std::string& uri) try : camera_(uri.substr(kV4l2Scheme.size())) {
     constexpr std::chrono::seconds kFirstPicture{10};  // some cameras take seconds to start
     cv::Mat3b first;
     if (camera_.read(first, kFirstPicture) == V4l2Camera::Read::timeout)
@@ -67,7 +67,7 @@ extern const SourceKind kWebcamKind = {
     .written = "v4l2:DEVICE",
     .help = "a camera of the system, e.g. v4l2:/dev/video0, as colour without depth",
     .recognised_by = "v4l2:",
-    .recognises = [](const SourceInput& input) { return input.uri.starts_with(kScheme); },
+    .recognises = [](const SourceInput& input) { return input.uri.starts_with(kV4l2Scheme); },
     .open = [](const SourceInput& input, const SourceOptions&) -> std::unique_ptr<FrameSource> {
       return std::make_unique<WebcamSource>(input.uri);
     },

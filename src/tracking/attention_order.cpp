@@ -7,11 +7,6 @@
 #include "tracking/object_merging.hpp"
 
 namespace saccade {
-namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
-}  // namespace
 
 const std::vector<std::size_t>& AttentionOrder::choose(const View& view, int count,
                                                        const ObjectShapes& shapes,

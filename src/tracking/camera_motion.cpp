@@ -8,6 +8,8 @@
 #include <opencv2/imgproc.hpp>
 #include <opencv2/rgbd/depth.hpp>
 
+#include "tracking/cell_projection.hpp"
+
 namespace saccade {
 namespace {
 
@@ -26,7 +28,6 @@ const std::vector<int> kIterations = {4, 4, 4, 4};  // from the finest of four p
 // those are kOverlap of the frame's, lie at the predicted depth.
 constexpr double kMostShift_m = 0.6, kMostTurn_degrees = 40;
 constexpr double kAgreement = 0.6, kOverlap = 0.3;
-constexpr float kSameDepth = 0.03F;  // of the depth
 
 // After a gap a match is believed only if no more than this share of the cells of frame and view, the two
 // shares added, lies where the other sees through. The same scene has up to .045, another table .12 and more.
@@ -270,7 +271,7 @@ CameraMotion::Agreement CameraMotion::agreement(const cv::Mat1f& seen_m, const c
       const double there = static_cast<double>(view_m(row, col));
       if (!(there > 0)) continue;
       ++both;
-      const double farther = there - q[2], reach = static_cast<double>(kSameDepth) * q[2];
+      const double farther = there - q[2], reach = kSameDepth * q[2];
       same += std::abs(farther) <= reach;
       through += farther > reach;
     }

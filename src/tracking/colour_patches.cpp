@@ -6,8 +6,6 @@
 namespace saccade {
 namespace {
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
 // Blue and red, as parts of b + g + r, of the four pixels in the middle of a cell; dark ones have none.
 cv::Vec2f chromaticity(const SurfaceGrid& grid, const cv::Mat3b& colour, int cell) {
   constexpr int kMiddle = SurfaceGrid::kCellPx / 2 - 1;

@@ -10,8 +10,6 @@ namespace {
 
 constexpr float kGap = 0.25F;  // of a jump; more is farther than the line
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
 // Has an id, and its anchor is seen on a segment that is no supporting plane.
 bool is_placed(const TrackedObject& object, const SurfaceSegments& segments) {
   if (!object.alive || object.id == 0 || object.sight != Sight::visible || object.anchor_cell < 0)

@@ -8,8 +8,6 @@ namespace {
 
 constexpr int kNoSlot = -1;
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
 bool is_seen(const TrackedObject* object) { return object != nullptr && object->sight == Sight::visible; }
 
 }  // namespace

@@ -15,8 +15,6 @@ constexpr std::size_t kFewCells = 3;  // fewer carried cells than this do not sa
 // part is another's, and its area is in this range, as a part of the object's.
 constexpr double kJustAppeared = 0.5, kOthers = 0.3, kLeastArea = 0.5, kMostArea = 2;
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
 bool is_visible(const TrackedObject& object) { return object.alive && object.sight == Sight::visible; }
 
 }  // namespace

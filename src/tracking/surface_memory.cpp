@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tracking/cell_projection.hpp"
+
 namespace saccade {
 namespace {
 
-constexpr double kSameDepth = 0.03;   // of the depth
 constexpr double kLeastWeight = 0.1;  // of bilinear interpolation; less of the same surface is none
 constexpr double kEdge = 0.5;         // cells; a step is of this cell if it is nearer than this
 

@@ -50,10 +50,10 @@ class RecordTest : public ProgramTest {
 TEST_F(RecordTest, WritesTheRequestedNumberOfFramesAndReportsIt) {
   const ProgramResult outcome = run_saccade({"record", kSource, in("a.oni"), "--frames", "25", "--json"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
-  const auto json = nlohmann::json::parse(outcome.out);
-  EXPECT_EQ(json["frames"], 25);
-  EXPECT_EQ(json["dropped"], 0);
-  EXPECT_EQ(json["bytes"], std::filesystem::file_size(in("a.oni")));
+  const auto summary = nlohmann::json::parse(outcome.out);
+  EXPECT_EQ(summary["frames"], 25);
+  EXPECT_EQ(summary["dropped"], 0);
+  EXPECT_EQ(summary["bytes"], std::filesystem::file_size(in("a.oni")));
   EXPECT_EQ(expect_frames_of_source(in("a.oni")), 25);
   EXPECT_TRUE(sound(in("a.oni")));
 }

@@ -15,14 +15,11 @@ namespace {
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 
-constexpr int kFailed = 1, kUsage = 2, kUnreadable = 3;
-const std::string kScene = "synthetic:table?frames=2&size=160x120";
-
 class RunErrorsTest : public ProgramTest {
  protected:
   // Runs on the scene with more arguments and expects one line of error that contains `text`.
   void expect(int status, const std::string& part, const std::vector<std::string>& more,
-              const std::string& source = kScene, const std::string& out = "out") const {
+              const std::string& source = kSmallScene, const std::string& out = "out") const {
     std::vector<std::string> arguments = {"run", source, "--out", in(out)};
     arguments.insert(arguments.end(), more.begin(), more.end());
     const ProgramResult outcome = run_saccade(arguments);
@@ -68,9 +65,9 @@ TEST_F(RunErrorsTest, CommandLine) {
   for (const std::vector<std::string>& arguments : {std::vector<std::string>{},
                                                     {"nonsense"},
                                                     {"run"},
-                                                    {"run", kScene},
-                                                    {"run", kScene, "--out", in("o"), "--kernal", "9"},
-                                                    {"run", kScene, "--out", in("o"), "--kernel"}}) {
+                                                    {"run", kSmallScene},
+                                                    {"run", kSmallScene, "--out", in("o"), "--kernal", "9"},
+                                                    {"run", kSmallScene, "--out", in("o"), "--kernel"}}) {
     const ProgramResult outcome = run_saccade(arguments);
     EXPECT_EQ(outcome.status, kUsage) << outcome.err;
     EXPECT_TRUE(outcome.one_error_line());
@@ -118,9 +115,9 @@ TEST_F(RunErrorsTest, NoFrameOfTheSourceIsUsable) {
 TEST_F(RunErrorsTest, OutputThatCannotBeWritten) {
   const std::vector<std::string> levels = {"--levels", "0..2"};
   write_file(folder_ / "file", std::string_view("x"));
-  expect(kFailed, "file", levels, kScene, "file");
-  expect(kFailed, "file/deeper", levels, kScene, "file/deeper");
-  const ProgramResult device = run_saccade({"run", kScene, "--out", "/dev/full", "--levels", "0..2"});
+  expect(kFailed, "file", levels, kSmallScene, "file");
+  expect(kFailed, "file/deeper", levels, kSmallScene, "file/deeper");
+  const ProgramResult device = run_saccade({"run", kSmallScene, "--out", "/dev/full", "--levels", "0..2"});
   EXPECT_EQ(device.status, kFailed);
   EXPECT_TRUE(device.one_error_line());
 
@@ -130,7 +127,7 @@ TEST_F(RunErrorsTest, OutputThatCannotBeWritten) {
     fs::remove_all(folder_ / "full");
     fs::create_directories(folder_ / "full");
     fs::create_symlink("/dev/full", folder_ / "full" / name);
-    expect(kFailed, "No space left on device", levels, kScene, "full");
+    expect(kFailed, "No space left on device", levels, kSmallScene, "full");
     EXPECT_TRUE(fs::is_symlink(folder_ / "full" / name));
   }
 }

@@ -17,7 +17,6 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 using ::testing::HasSubstr;
 
-constexpr int kUsage = 2, kUnreadable = 3, kUnfinished = 4;
 const std::string kScenes = "synthetic:table?seed=3&noise=kinect&size=160x120&frames=40&scenes=40";
 
 class RunPartsTest : public ProgramTest {

@@ -24,9 +24,6 @@ using ::testing::AnyOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-constexpr int kDone = 0, kFailed = 1, kUsage = 2, kUnreadable = 3;
-const std::string kScene = "synthetic:table?frames=2&size=160x120";
-
 class WrongInputs : public ProgramTest {
  protected:
   // Runs a shell command, in which "$P" is the program, in the folder of the test.
@@ -93,7 +90,7 @@ TEST_F(WrongInputs, ReasonsDoNotRepeatThemselves) {
   EXPECT_EQ(run.status, kDone);
   EXPECT_THAT(run.err, HasSubstr("frame 0: cannot read: Is a directory: " + unreadable + " ("));
 
-  ASSERT_EQ(shell("$P export '" + kScene + "' --out v --format video --quiet").status, kDone);
+  ASSERT_EQ(shell("$P export '" + kSmallScene + "' --out v --format video --quiet").status, kDone);
   const auto size = fs::file_size(folder_ / "v/frames_depth.mkv");
   fs::resize_file(folder_ / "v/frames_depth.mkv", size - 2000);
   const ProgramResult video = shell("$P export v/frames_depth.mkv --out w");
@@ -111,14 +108,14 @@ TEST_F(WrongInputs, WithoutAUsableFrameTheReasonIsTheOnlyLine) {
 }
 
 TEST_F(WrongInputs, Outputs) {
-  ASSERT_EQ(shell("$P record '" + kScene + "' a.oni --quiet").status, kDone);
+  ASSERT_EQ(shell("$P record '" + kSmallScene + "' a.oni --quiet").status, kDone);
   const std::string recording = text("a.oni");
   expect(kUsage, "own source", "$P record a.oni a.oni --force");
   EXPECT_EQ(text("a.oni"), recording);
   expect(kUsage, ".oni", "$P record a.oni b.mkv");
   EXPECT_FALSE(fs::exists(folder_ / "b.mkv"));
   expect(kUsage, "name a folder", "$P run a.oni --levels 0..2 --out -");
-  expect(kUsage, "name a folder", "$P eval '" + kScene + "' --levels 0..2 --out -");
+  expect(kUsage, "name a folder", "$P eval '" + kSmallScene + "' --levels 0..2 --out -");
   for (const char* command :
        {"run a.oni --levels 0..2 --out o", "run a.oni --levels 0..2 --out o --json",
         "record a.oni b.oni --force", "record a.oni b.oni --force --json", "oni info a.oni",
@@ -134,7 +131,7 @@ TEST_F(WrongInputs, Outputs) {
 
 // saccade --help | head: the reader is gone before anything is written. Who reads results should get them.
 TEST_F(WrongInputs, AReaderOfHelpMayLeave) {
-  ASSERT_EQ(shell("$P record '" + kScene + "' a.oni --quiet").status, kDone);
+  ASSERT_EQ(shell("$P record '" + kSmallScene + "' a.oni --quiet").status, kDone);
   const auto read_nothing = [&](const char* command) {
     ASSERT_EQ(shell(fmt::format("{{ sleep 0.2; $P {} 2>errors; echo $? >status; }} | true", command)).status,
               0);
@@ -182,7 +179,7 @@ TEST_F(WrongInputs, NamesThatAreNotPrintable) {
 TEST_F(WrongInputs, ClosedStandardStreams) {
   for (const char* closed : {">&-", "<&- >&- 2>&-", "2>&-"}) {
     SCOPED_TRACE(closed);
-    EXPECT_EQ(shell("$P record '" + kScene + "' a.oni --force " + closed).status, kDone);
+    EXPECT_EQ(shell("$P record '" + kSmallScene + "' a.oni --force " + closed).status, kDone);
     EXPECT_EQ(shell("$P oni check a.oni").status, kDone) << "nothing was written into it";
     EXPECT_EQ(shell("$P run a.oni --levels 0..2 --out o " + std::string(closed)).status, kDone);
     const std::string lines = text("o/fixations.jsonl");
@@ -206,12 +203,12 @@ TEST_F(WrongInputs, TwoProcessesInOneFolder) {
 }
 
 TEST_F(WrongInputs, AFolderInUseIsLeftAlone) {
-  ASSERT_EQ(shell("$P eval '" + kScene + "' --levels 0..2 --quiet --out shard").status, kDone);
+  ASSERT_EQ(shell("$P eval '" + kSmallScene + "' --levels 0..2 --quiet --out shard").status, kDone);
   fs::create_directory(folder_ / "o");
   const FolderLock lock(folder_ / "o", "the test");
   const std::string orbit = "'synthetic:table?frames=2&size=160x120&camera=orbit'";
   for (const std::string& command :
-       {"run '" + kScene + "' --levels 0..2", "eval '" + kScene + "' --levels 0..2",
+       {"run '" + kSmallScene + "' --levels 0..2", "eval '" + kSmallScene + "' --levels 0..2",
         "eval " + orbit + " --levels 0..2 --over-time", std::string("eval --merge shard")})
     expect(kFailed, "the folder is in use by the test, process ", "$P " + command + " --quiet --out o");
   EXPECT_EQ(std::distance(fs::directory_iterator(folder_ / "o"), {}), 1) << "the lock";
@@ -232,7 +229,7 @@ TEST_F(WrongInputs, AShorterRunLeavesNoPicturesOfTheOneBefore) {
   ASSERT_EQ(shell("$P run 'synthetic:table?frames=3&size=160x120'" + options).status, kDone);
   EXPECT_TRUE(fs::exists(folder_ / "o/000002_level1.tiff"));
   put("o/notes_saliency.png", "of the user");
-  ASSERT_EQ(shell("$P run '" + kScene + "' --levels 0..2 --quiet --out o").status, kDone);
+  ASSERT_EQ(shell("$P run '" + kSmallScene + "' --levels 0..2 --quiet --out o").status, kDone);
   std::set<std::string> names;
   for (const auto& file : fs::directory_iterator(folder_ / "o"))
     names.insert(file.path().filename().string());

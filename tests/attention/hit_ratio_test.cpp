@@ -27,20 +27,20 @@ struct Found {
   std::set<int> objects, hit;  ///< labels of all objects; those at the points
 };
 
-struct Scene {
+struct LabelledScene {
   cv::Mat1f depth_mm;
   cv::Mat1b labels;
 };
 
 // Every third of the real table scenes.
-std::vector<Scene> read_scenes() {
-  std::vector<Scene> scenes;
+std::vector<LabelledScene> read_scenes() {
+  std::vector<LabelledScene> scenes;
   for (int frame = 0; frame < 45; frame += 3) {
     const std::string base = kScenes / std::to_string(10000 + frame).substr(1);
     const cv::Mat depth = cv::imread(base + "_depth.png", cv::IMREAD_UNCHANGED);
     const cv::Mat labels = cv::imread(base + "_label.png", cv::IMREAD_UNCHANGED);
     if (depth.type() != CV_16U || labels.type() != CV_8U || depth.size() != labels.size()) continue;
-    Scene& scene = scenes.emplace_back();
+    LabelledScene& scene = scenes.emplace_back();
     depth.convertTo(scene.depth_mm, CV_32F);
     scene.labels = labels;
   }
@@ -56,7 +56,7 @@ std::vector<Found> find_objects(const AttentionSettings& settings) {
   StageTimes times;
   Attention attention;
   std::vector<Found> all;
-  for (const Scene& scene : read_scenes()) {
+  for (const LabelledScene& scene : read_scenes()) {
     const Intrinsics camera{525, 525, 319.5, 239.5, IntrinsicsOrigin::file};
     operator_3d.compute(scene.depth_mm, camera, {}, maps, times);
     select->select(maps.master, scene.depth_mm, camera, attention);

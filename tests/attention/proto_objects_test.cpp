@@ -13,8 +13,6 @@
 namespace saccade {
 namespace {
 
-constexpr int kCell = SurfaceGrid::kCellPx;
-
 // The pixels of the cells as their documentation says it, one by one in double.
 ProtoObject slow_paint(const cv::Mat1f& depth, const Intrinsics& camera, const SurfaceGrid& grid,
                        const std::vector<int>& cells, cv::Mat1w& masks, int rank) {

@@ -11,8 +11,6 @@
 namespace saccade {
 namespace {
 
-constexpr int kCell = SurfaceGrid::kCellPx;
-
 // Depth of a cell as its documentation says it, in double.
 double slow_depth(const cv::Mat1f& depth, int row, int col) {
   const int order[] = {1, 2, 0, 3};

@@ -4,9 +4,12 @@
 
 #include <opencv2/core.hpp>
 
+#include "attention/surface_grid.hpp"
 #include "core/intrinsics.hpp"
 
 namespace saccade {
+
+inline constexpr int kCell = SurfaceGrid::kCellPx;
 
 /// A box standing on the table, or a ball lying on it. World: x right, y away, z up, mm; the table is z = 0.
 struct Thing {

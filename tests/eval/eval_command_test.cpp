@@ -16,10 +16,9 @@ namespace saccade {
 namespace {
 
 namespace fs = std::filesystem;
-using nlohmann::json;
+using Json = nlohmann::json;
 using ::testing::HasSubstr;
 
-constexpr int kFailed = 1, kUsage = 2, kUnreadable = 3, kUnfinished = 4;
 const std::string kScenes = "synthetic:table?seed=3&noise=kinect&size=160x120&frames=7&scenes=7";
 
 class EvalTest : public ProgramTest {
@@ -49,9 +48,9 @@ class EvalTest : public ProgramTest {
   }
 
   // The report without what depends on how busy the machine was.
-  json report(const std::string& out) const {
-    json all = json::parse(text(out + "/report.json"));
-    for (json& condition : all["conditions"]) condition.erase("times_ms");
+  Json report(const std::string& out) const {
+    Json all = Json::parse(text(out + "/report.json"));
+    for (Json& condition : all["conditions"]) condition.erase("times_ms");
     return all;
   }
 
@@ -87,7 +86,7 @@ TEST_F(EvalTest, WritesAllFiles) {
   EXPECT_THAT(outcome.out, HasSubstr("symmetry3d, k = 15, wta"));
   EXPECT_THAT(outcome.out, HasSubstr("7 images"));
   EXPECT_EQ(lines("out/hr.csv").size(), 1 + 7 * 4 * 6U);
-  const json all = report("out");
+  const Json all = report("out");
   EXPECT_EQ(all["images"], 7);
   EXPECT_EQ(all["conditions"].size(), 4U);
   EXPECT_GT(all["conditions"][2]["hr"][0]["mean"], all["baselines"]["random"][0]["mean"]);
@@ -179,7 +178,7 @@ TEST_F(EvalTest, StatusReportsEveryShard) {
   EXPECT_THAT(outcome.out, HasSubstr("shard 3/3   1 of 2 images   stopped\n"));
   EXPECT_THAT(outcome.err, HasSubstr("1 of 3 shards complete; missing: 2"));
   outcome = run_saccade({"eval", "--status", in("part1"), in("part3"), "--json"});
-  const json status = json::parse(outcome.out);
+  const Json status = Json::parse(outcome.out);
   EXPECT_EQ(status["complete"], false);
   EXPECT_EQ(status["missing"], "2");
   EXPECT_EQ(status["shards"][1]["done"], 1);
@@ -247,7 +246,7 @@ TEST_F(EvalTest, FramesWhoseLabelsDoNotFitAreNamedAndLeftOut) {
   EXPECT_THAT(outcome.err,
               HasSubstr("2 images left out (see report.json), the first, frame 1: 0001: no labels: "
                         "0001_label.png: 80x60"));
-  const json all = report("out");
+  const Json all = report("out");
   EXPECT_EQ(all["images"], 1);
   ASSERT_EQ(all["left_out"].size(), 2U);
   EXPECT_EQ(all["left_out"][0]["name"], "0001");
@@ -267,7 +266,7 @@ TEST_F(EvalTest, WithoutAnyLabelTheReasonIsTheOnlyLine) {
 TEST_F(EvalTest, SelectsFramesAndPrintsJson) {
   const ProgramResult outcome = eval("out", {"--start", "1", "--every", "2", "--frames", "2", "--json"});
   EXPECT_EQ(outcome.status, 0) << outcome.err;
-  const json summary = json::parse(outcome.out);
+  const Json summary = Json::parse(outcome.out);
   EXPECT_EQ(summary["images"], 2);
   EXPECT_EQ(summary["out"], in("out"));
   EXPECT_THAT(lines("out/hr.csv")[1], ::testing::StartsWith("1,"));
@@ -285,9 +284,9 @@ TEST_F(EvalTest, OverTimeWritesTableAndFigure) {
   for (const char* name : {"held-30, n = 5", "first stays", "IDF1", "best IDF1, over time", "ids per place",
                            "under the right id", "cuts"})
     EXPECT_THAT(outcome.out, HasSubstr(name));
-  const json report = json::parse(text("one/over_time.json"));
+  const Json report = Json::parse(text("one/over_time.json"));
   ASSERT_EQ(report["models"].size(), 2U);
-  const json& model = report["models"][0];
+  const Json& model = report["models"][0];
   EXPECT_EQ(model["model"], "symmetry3d");
   EXPECT_EQ(model["frames"], 40);
   EXPECT_EQ(model["cuts"], 0);
@@ -295,7 +294,7 @@ TEST_F(EvalTest, OverTimeWritesTableAndFigure) {
   EXPECT_EQ(model["hit_ratio"]["over_time"].size(), 10U);
   EXPECT_GE(model["best_identity_f1"]["over_time"].get<double>(), model["identity_f1"].get<double>());
   EXPECT_GT(model["best_identity_f1"]["frame_by_frame"].get<double>(), 0.5);
-  const json& identity = model["identity"];
+  const Json& identity = model["identity"];
   EXPECT_EQ(identity["in_view"], identity["right_id"].get<int>() + identity["other_id"].get<int>() +
                                      identity["in_other"].get<int>() + identity["without_point"].get<int>());
   EXPECT_GT(identity["right_id"], 0);

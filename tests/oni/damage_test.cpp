@@ -16,8 +16,8 @@ namespace {
 using ::testing::HasSubstr;
 using Bytes = std::vector<std::uint8_t>;
 
-const cv::Size kSize(20, 12);
-constexpr int kFrames = 4;
+const cv::Size kWholeSize(20, 12);
+constexpr int kWholeFrames = 4;
 
 class DamageTest : public OniFiles {
  protected:
@@ -26,7 +26,7 @@ class DamageTest : public OniFiles {
 
   void SetUp() override {
     OniFiles::SetUp();
-    record_test_frames(path("whole.oni"), kFrames, kSize, true);
+    record_test_frames(path("whole.oni"), kWholeFrames, kWholeSize, true);
     whole_ = read_bytes(path("whole.oni"));
     const Recording recording(path("whole.oni"));
     for (const OniFrameEntry& frame : main_depth(recording)->frames)
@@ -41,8 +41,8 @@ class DamageTest : public OniFiles {
     cv::Mat1f depth;
     for (std::size_t k = 0; node != nullptr && k < node->frames.size(); ++k) {
       if (!recording.read_depth(*node, k, depth)) continue;
-      for (int n = 0; n < kFrames; ++n)
-        if (equal(depth, test_frame(n, kSize, true).depth_mm)) found.push_back(n);
+      for (int n = 0; n < kWholeFrames; ++n)
+        if (equal(depth, test_frame(n, kWholeSize, true).depth_mm)) found.push_back(n);
     }
     return found;
   }
@@ -121,7 +121,7 @@ TEST_F(DamageTest, ARecordIsFoundWhereTwoReadsOfTheSearchMeet) {
     damaged.insert(damaged.begin() + static_cast<std::ptrdiff_t>(end), record + 4 + kRead - before - end,
                    0xA5);
     write_bytes(path("d.oni"), damaged);
-    EXPECT_EQ(frames_of(path("d.oni")), first_frames(kFrames)) << before;
+    EXPECT_EQ(frames_of(path("d.oni")), first_frames(kWholeFrames)) << before;
   }
 }
 
@@ -200,7 +200,7 @@ TEST_F(DamageTest, WrongTablesAndCountsAreFoundAndNotUsed) {
     Bytes damaged = whole_;
     store_le(damaged.data() + at, value);
     write_bytes(path("d.oni"), damaged);
-    EXPECT_EQ(frames_of(path("d.oni")), first_frames(kFrames));
+    EXPECT_EQ(frames_of(path("d.oni")), first_frames(kWholeFrames));
     EXPECT_FALSE(sound(path("d.oni")));
     return problems_of(path("d.oni"));
   };
@@ -219,7 +219,7 @@ TEST_F(DamageTest, RepairChangesNeitherTheOriginalNorAnExistingFile) {
   EXPECT_EQ(read_bytes(path("other")).size(), 1u);
   repair_recording(path("whole.oni"), path("copy.oni"), false);
   EXPECT_EQ(read_bytes(path("whole.oni")), whole_);
-  EXPECT_EQ(frames_of(path("copy.oni")), first_frames(kFrames));
+  EXPECT_EQ(frames_of(path("copy.oni")), first_frames(kWholeFrames));
 }
 
 TEST_F(DamageTest, ARepairThatSavesNothingIsAnErrorAndKeepsWhatWasThere) {
@@ -293,7 +293,7 @@ TEST_F(DamageTest, FramesOfAnUnknownNodeAndNodesAddedTwiceAreReported) {
   store_le<std::uint32_t>(damaged.data() + recording.index().nodes[1].position + 8, 1);
   write_bytes(path("d.oni"), damaged);
   EXPECT_THAT(problems_of(path("d.oni")), HasSubstr("added twice"));
-  EXPECT_EQ(frames_of(path("d.oni")), first_frames(kFrames));
+  EXPECT_EQ(frames_of(path("d.oni")), first_frames(kWholeFrames));
 }
 
 }  // namespace

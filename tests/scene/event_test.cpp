@@ -4,18 +4,17 @@
 
 #include <gtest/gtest.h>
 
+#include "camera.hpp"
 #include "scene/camera_path.hpp"
 #include "scene/render.hpp"
 
 namespace saccade::scene {
 namespace {
 
-const Intrinsics kCamera{262.5, 262.5, 159.5, 119.5, IntrinsicsOrigin::sensor};
-
 std::set<int> labels_at(const Scene& scene, const Event& event, double time_s) {
   SceneRender view;
   const Scene now = scene_at(scene, event, time_s);
-  render(now, kCamera, {320, 240}, camera_on(scene, CameraPath::still, time_s), view);
+  render(now, kCamera, kSize, camera_on(scene, CameraPath::still, time_s), view);
   return {view.labels.begin(), view.labels.end()};
 }
 

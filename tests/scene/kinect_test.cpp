@@ -7,11 +7,10 @@
 
 #include <gtest/gtest.h>
 
+#include "camera.hpp"
+
 namespace saccade::scene {
 namespace {
-
-const cv::Size kSize(320, 240);
-const Intrinsics kCamera{262.5, 262.5, 159.5, 119.5, IntrinsicsOrigin::sensor};
 
 // Walls and boxes seen from the origin, which looks along +y of the world.
 Scene world_of(std::vector<Part> parts) {

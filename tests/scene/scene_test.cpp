@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <opencv2/imgproc.hpp>
 
+#include "camera.hpp"
 #include "saliency/reference.hpp"
 #include "scene/random.hpp"
 #include "scene/render.hpp"
@@ -12,9 +13,6 @@
 
 namespace saccade::scene {
 namespace {
-
-const cv::Size kSize(320, 240);
-const Intrinsics kCamera{262.5, 262.5, 159.5, 119.5, IntrinsicsOrigin::sensor};
 
 SceneRender still_view(const Scene& scene) {
   SceneRender view;

@@ -29,7 +29,7 @@ const cv::Size kDepthSize(320, 288);
 const cv::Size kColourSize(1280, 720);
 constexpr std::uint32_t kMjpg = 'M' | 'J' << 8 | 'P' << 16 | 'G' << 24;
 
-cv::Mat1w depth_image(int k) {
+cv::Mat1w azure_depth(int k) {
   cv::Mat1w depth(kDepthSize);
   for (int row = 0; row < depth.rows; ++row)
     for (int col = 0; col < depth.cols; ++col)
@@ -77,7 +77,7 @@ class AzureRecordingTest : public VideoFiles {
     MatroskaTrack infrared{"IR", kB16g, kDepthSize, 16, 0, 33, {}};
     for (int k = 0; k < kFrames; ++k) {
       colour.packets.push_back(jpeg(place_image(k)));
-      depth.packets.push_back(big_endian(depth_image(k)));
+      depth.packets.push_back(big_endian(azure_depth(k)));
       infrared.packets.push_back(big_endian(cv::Mat1w(kDepthSize, 77)));
     }
     std::vector<MatroskaTrack> tracks;
@@ -103,7 +103,7 @@ TEST_F(AzureRecordingTest, DepthIsExactInAnyOrder) {
     ASSERT_EQ(source->read(frame, kNoWait).status, ReadStatus::frame) << k;
     EXPECT_NEAR(static_cast<double>(frame.timestamp_us), 33000.0 * k, 1);
     cv::Mat1f expected;
-    depth_image(k).convertTo(expected, CV_32F);
+    azure_depth(k).convertTo(expected, CV_32F);
     EXPECT_EQ(cv::norm(frame.depth_mm, expected, cv::NORM_INF), 0) << k;
     ASSERT_EQ(frame.colour.size(), kDepthSize);
     EXPECT_NEAR(cv::mean(frame.colour(cv::Rect(120, 120, 60, 60)))[2], 40 * k, 4) << k;
@@ -145,7 +145,7 @@ TEST_F(AzureRecordingTest, ColourIsWhereTheOtherCameraSeesIt) {
   ColourRegistration registration(calibration.depth, calibration.colour, calibration.rotation,
                                   calibration.translation_mm);
   cv::Mat1f depth;
-  depth_image(0).convertTo(depth, CV_32F);
+  azure_depth(0).convertTo(depth, CV_32F);
   cv::Mat3b registered;
   registration.apply(depth, place_image(0), registered);
 

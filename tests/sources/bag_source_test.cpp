@@ -29,10 +29,10 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 
 constexpr std::int64_t kBegin_ns = 1'700'000'000'000'000'000;
-const Intrinsics kCamera{500.5, 501.5, 8.25, 5.75, IntrinsicsOrigin::file};
+const Intrinsics kBagCamera{500.5, 501.5, 8.25, 5.75, IntrinsicsOrigin::file};
 const std::string kDepth = "/camera/depth/image_raw", kColour = "/camera/color/image_raw";
 
-cv::Mat1w depth_image(int k) {
+cv::Mat1w bag_depth(int k) {
   cv::Mat1w image(12, 16);
   for (int i = 0; i < 192; ++i) image(i / 16, i % 16) = static_cast<std::uint16_t>(1000 + 10 * k + i);
   image(0, 0) = 0;
@@ -40,7 +40,7 @@ cv::Mat1w depth_image(int k) {
   return image;
 }
 
-cv::Mat3b colour_image(int k) { return cv::Mat3b(12, 16, cv::Vec3b(10, 20, static_cast<std::uint8_t>(k))); }
+cv::Mat3b bag_colour(int k) { return cv::Mat3b(12, 16, cv::Vec3b(10, 20, static_cast<std::uint8_t>(k))); }
 
 std::int64_t stamp(int k) { return kBegin_ns + k * std::int64_t{33'333'000}; }
 
@@ -48,11 +48,11 @@ std::int64_t stamp(int k) { return kBegin_ns + k * std::int64_t{33'333'000}; }
 std::vector<TestMessage> recording(bool cdr) {
   const MessageWriter writer(cdr);
   std::vector<TestMessage> messages = {
-      writer.camera("/camera/depth/camera_info", stamp(0), {16, 12}, kCamera),
+      writer.camera("/camera/depth/camera_info", stamp(0), {16, 12}, kBagCamera),
       writer.camera("/camera/color/camera_info", stamp(0), {16, 12}, {1, 1, 1, 1, IntrinsicsOrigin::file})};
   for (int k = 0; k < 4; ++k) {
-    messages.push_back(writer.image(kDepth, stamp(k), depth_image(k), "16UC1"));
-    if (k != 2) messages.push_back(writer.image(kColour, stamp(k) + 5'000'000, colour_image(k), "bgr8"));
+    messages.push_back(writer.image(kDepth, stamp(k), bag_depth(k), "16UC1"));
+    if (k != 2) messages.push_back(writer.image(kColour, stamp(k) + 5'000'000, bag_colour(k), "bgr8"));
   }
   return messages;
 }
@@ -65,8 +65,8 @@ class BagSourceTest : public FolderTest {
     SCOPED_TRACE(file);
     const auto source = open_source(file);
     EXPECT_EQ(source->info().frame_count, 4);
-    EXPECT_EQ(source->info().intrinsics.fx, kCamera.fx);
-    EXPECT_EQ(source->info().intrinsics.cy, kCamera.cy);
+    EXPECT_EQ(source->info().intrinsics.fx, kBagCamera.fx);
+    EXPECT_EQ(source->info().intrinsics.cy, kBagCamera.cy);
     EXPECT_NEAR(source->info().rate_hz, 30, 0.01);
     for (const int k : {0, 1, 2, 3, 0}) {
       source->seek(k);
@@ -75,12 +75,12 @@ class BagSourceTest : public FolderTest {
       ASSERT_EQ(result.status, ReadStatus::frame) << result.reason;
       EXPECT_EQ(frame.timestamp_us, stamp(k) / 1000);
       cv::Mat1f expected;
-      depth_image(k).convertTo(expected, CV_32F);
+      bag_depth(k).convertTo(expected, CV_32F);
       expected(0, 1) = 0;
       EXPECT_EQ(cv::norm(frame.depth_mm, expected, cv::NORM_INF), 0);
       ASSERT_EQ(frame.colour.empty(), k == 2);
       if (k != 2) {
-        EXPECT_EQ(cv::norm(frame.colour, colour_image(k), cv::NORM_INF), 0);
+        EXPECT_EQ(cv::norm(frame.colour, bag_colour(k), cv::NORM_INF), 0);
       }
     }
   }
@@ -124,7 +124,7 @@ TEST_F(BagSourceTest, FramesComeInTheOrderOfTheirTimesNotOfTheFile) {
 TEST_F(BagSourceTest, WithoutAStampTheTimeIsThatOfTheRecorder) {
   for (const char* name : {"a.bag", "a.mcap", "p.mcap", "a.db3"}) {
     const std::string file = name;
-    TestMessage message = MessageWriter(file != "a.bag").image(kDepth, 0, depth_image(0), "16UC1");
+    TestMessage message = MessageWriter(file != "a.bag").image(kDepth, 0, bag_depth(0), "16UC1");
     message.time_ns = kBegin_ns + 123'456'789;
     if (file == "a.bag") write_ros1_bag(folder_ / file, {message}, "none");
     if (file == "a.mcap") write_mcap(folder_ / file, {message}, "lz4");
@@ -140,7 +140,7 @@ TEST_F(BagSourceTest, TheRateIsThatOfTheMessagesThatAreNotMissing) {
   const MessageWriter writer(true);
   std::vector<TestMessage> messages;
   for (const int k : {0, 1, 2, 3, 6, 9, 12})
-    messages.push_back(writer.image(kDepth, stamp(k), depth_image(k), "16UC1"));
+    messages.push_back(writer.image(kDepth, stamp(k), bag_depth(k), "16UC1"));
   write_mcap(folder_ / "a.mcap", messages, "");
   EXPECT_NEAR(open_source(in("a.mcap"))->info().rate_hz, 30, 0.01);
 }
@@ -150,8 +150,8 @@ TEST_F(BagSourceTest, ColourMayBeSlowerThanDepth) {
   const MessageWriter writer(true);
   std::vector<TestMessage> messages;
   for (int k = 0; k < 7; ++k) {
-    messages.push_back(writer.image(kDepth, stamp(k), depth_image(k), "16UC1"));
-    if (k % 3 == 0) messages.push_back(writer.image(kColour, stamp(k), colour_image(k), "bgr8"));
+    messages.push_back(writer.image(kDepth, stamp(k), bag_depth(k), "16UC1"));
+    if (k % 3 == 0) messages.push_back(writer.image(kColour, stamp(k), bag_colour(k), "bgr8"));
   }
   write_mcap(folder_ / "a.mcap", messages, "");
   const auto source = open_source(in("a.mcap"));
@@ -160,7 +160,7 @@ TEST_F(BagSourceTest, ColourMayBeSlowerThanDepth) {
     const ReadResult read = source->read(frame, kNoWait);
     ASSERT_EQ(read.status, ReadStatus::frame);
     ASSERT_FALSE(frame.colour.empty()) << read.reason;
-    EXPECT_EQ(frame.colour(5, 5), colour_image(nearest)(5, 5));
+    EXPECT_EQ(frame.colour(5, 5), bag_colour(nearest)(5, 5));
   }
 }
 
@@ -195,8 +195,8 @@ TEST_F(BagSourceTest, OtherEncodingsAreRead) {
   metres(0, 0) = std::numeric_limits<float>::quiet_NaN();
   metres(0, 1) = -1;
   std::vector<std::uint8_t> jpeg, packed(12, 0);
-  cv::imencode(".jpg", colour_image(7), jpeg);
-  const auto png = encode_png(depth_image(0));
+  cv::imencode(".jpg", bag_colour(7), jpeg);
+  const auto png = encode_png(bag_depth(0));
   packed.insert(packed.end(), png.begin(), png.end());
   write_mcap(
       folder_ / "float.mcap",
@@ -213,18 +213,18 @@ TEST_F(BagSourceTest, OtherEncodingsAreRead) {
   EXPECT_NEAR(frame.colour(5, 5)[1], 20, 3);
   EXPECT_EQ(source->info().intrinsics.origin, IntrinsicsOrigin::guess);
   ASSERT_EQ(open_source(in("packed.mcap"))->read(frame, kNoWait).status, ReadStatus::frame);
-  EXPECT_EQ(frame.depth_mm(5, 5), static_cast<float>(depth_image(0)(5, 5)));
+  EXPECT_EQ(frame.depth_mm(5, 5), static_cast<float>(bag_depth(0)(5, 5)));
 }
 
 TEST_F(BagSourceTest, DepthAsACompressedImageIsRead) {
   const MessageWriter writer(false);
   write_ros1_bag(folder_ / "a.bag",
                  {writer.compressed("/depth/image_raw/compressed", 5, "16UC1; png compressed ",
-                                    encode_png(depth_image(2)))},
+                                    encode_png(bag_depth(2)))},
                  "none");
   Frame frame;
   ASSERT_EQ(open_source(in("a.bag"))->read(frame, kNoWait).status, ReadStatus::frame);
-  EXPECT_EQ(frame.depth_mm(5, 5), static_cast<float>(depth_image(2)(5, 5)));
+  EXPECT_EQ(frame.depth_mm(5, 5), static_cast<float>(bag_depth(2)(5, 5)));
   EXPECT_EQ(frame.depth_mm(0, 1), 0);
 }
 
@@ -257,7 +257,7 @@ TEST_F(BagSourceTest, DepthCompressedWithRvlIsExact) {
 
 TEST_F(BagSourceTest, DamagedRvlIsRejectedWithTheReason) {
   const MessageWriter writer(true);
-  const auto sound = rvl_message(depth_image(0));
+  const auto sound = rvl_message(bag_depth(0));
   auto cut = sound, endless = sound, long_run = sound, huge = sound;
   cut.resize(sound.size() / 2 / 4 * 4);
   std::fill(endless.begin() + 20, endless.end(), std::uint8_t{0xff});
@@ -329,7 +329,7 @@ class BagCameraTest : public BagSourceTest {
     const MessageWriter writer(true);
     write_mcap(folder_ / "camera.mcap",
                {writer.camera("/depth/camera_info", 5, size, {400, 410, 7, 5, IntrinsicsOrigin::file}, lens),
-                writer.image(topic, 5, depth_image(0), "16UC1")},
+                writer.image(topic, 5, bag_depth(0), "16UC1")},
                "");
     return open_source(in("camera.mcap"));
   }
@@ -382,10 +382,10 @@ TEST_F(BagSourceTest, TheUnitOfTheUserHoldsForFloatsToo) {
   const auto source = open_source(in("a.mcap"), {{}, {.depth_unit_mm = 2}});
   ASSERT_EQ(source->read(frame, kNoWait).status, ReadStatus::frame);
   EXPECT_EQ(frame.depth_mm(5, 5), 3000);
-  write_mcap(folder_ / "b.mcap", {writer.image("/depth", 5, depth_image(0), "mono16")}, "");
+  write_mcap(folder_ / "b.mcap", {writer.image("/depth", 5, bag_depth(0), "mono16")}, "");
   ASSERT_EQ(open_source(in("b.mcap"), {{}, {.depth_unit_mm = 2}})->read(frame, kNoWait).status,
             ReadStatus::frame);
-  EXPECT_EQ(frame.depth_mm(5, 5), 2.0F * depth_image(0)(5, 5));
+  EXPECT_EQ(frame.depth_mm(5, 5), 2.0F * bag_depth(0)(5, 5));
 }
 
 TEST_F(BagSourceTest, SmallColourIsInterpolatedAsInEverySource) {
@@ -393,7 +393,7 @@ TEST_F(BagSourceTest, SmallColourIsInterpolatedAsInEverySource) {
   cv::Mat3b small(3, 4);
   for (int i = 0; i < 12; ++i) small(i / 4, i % 4) = cv::Vec3b::all(static_cast<std::uint8_t>(20 * i));
   write_mcap(folder_ / "a.mcap",
-             {writer.image(kDepth, 5, depth_image(0), "16UC1"), writer.image(kColour, 5, small, "bgr8")}, "");
+             {writer.image(kDepth, 5, bag_depth(0), "16UC1"), writer.image(kColour, 5, small, "bgr8")}, "");
   Frame frame;
   ASSERT_EQ(open_source(in("a.mcap"))->read(frame, kNoWait).status, ReadStatus::frame);
   cv::Mat3b expected;
@@ -411,7 +411,7 @@ TEST_F(BagSourceTest, OtherCompressionOfRos2IsOneLine) {
                 AllOf(HasSubstr("compressed as a whole"), HasSubstr("zstd -d")));
   write_mcap(folder_ / "files/a_0.mcap", recording(true), "");
   EXPECT_EQ(open_source(in("files"))->info().frame_count, 4) << "it has been decompressed";
-  TestMessage message = MessageWriter(true).image(kDepth, 5, depth_image(0), "16UC1");
+  TestMessage message = MessageWriter(true).image(kDepth, 5, bag_depth(0), "16UC1");
   message.bytes.insert(message.bytes.begin(), {0x28, 0xB5, 0x2F, 0xFD});
   write_db3(folder_ / "a.db3", {message});
   EXPECT_THAT(complaint(in("a.db3"), ExitStatus::unreadable),
@@ -420,24 +420,24 @@ TEST_F(BagSourceTest, OtherCompressionOfRos2IsOneLine) {
 
 TEST_F(BagSourceTest, TopicsAreChosenByNameOrByTheUser) {
   const MessageWriter writer(false);
-  std::vector<TestMessage> messages = {writer.image("/a/depth/image", 5, depth_image(0), "16UC1"),
-                                       writer.image("/b/depth/image", 5, depth_image(3), "16UC1")};
+  std::vector<TestMessage> messages = {writer.image("/a/depth/image", 5, bag_depth(0), "16UC1"),
+                                       writer.image("/b/depth/image", 5, bag_depth(3), "16UC1")};
   write_ros1_bag(folder_ / "two.bag", messages, "none");
   EXPECT_THAT(complaint(in("two.bag"), ExitStatus::unreadable),
               HasSubstr("choose with --topics depth=TOPIC: /a/depth/image, /b/depth/image"));
   Frame frame;
   const auto chosen = open_source(in("two.bag"), {{}, {.depth_topic = "/b/depth/image"}});
   ASSERT_EQ(chosen->read(frame, kNoWait).status, ReadStatus::frame);
-  EXPECT_EQ(frame.depth_mm(5, 5), static_cast<float>(depth_image(3)(5, 5)));
+  EXPECT_EQ(frame.depth_mm(5, 5), static_cast<float>(bag_depth(3)(5, 5)));
   EXPECT_THAT(complaint(in("two.bag"), ExitStatus::usage, {.depth_topic = "/c"}),
               HasSubstr("no topic of this name has depth: --topics depth=/c"));
-  messages.push_back(writer.image("/camera/aligned_depth_to_color/image_raw", 5, depth_image(7), "16UC1"));
+  messages.push_back(writer.image("/camera/aligned_depth_to_color/image_raw", 5, bag_depth(7), "16UC1"));
   write_ros1_bag(folder_ / "three.bag", messages, "lz4");
   EXPECT_THAT(open_source(in("three.bag"))->info().notes, Contains(HasSubstr("depth from /camera/aligned")));
 }
 
 TEST_F(BagSourceTest, WithoutDepthTheErrorListsWhatThereIs) {
-  write_db3(folder_ / "a.db3", {MessageWriter(true).image("/rgb", 5, colour_image(1), "rgb8")});
+  write_db3(folder_ / "a.db3", {MessageWriter(true).image("/rgb", 5, bag_colour(1), "rgb8")});
   EXPECT_THAT(complaint(in("a.db3"), ExitStatus::unreadable), HasSubstr("it holds /rgb (rgb8)"));
   for (const char* name : {"a.bag", "a.mcap", "b.db3"}) {
     write_file(folder_ / name, std::string_view("something else"));
@@ -501,7 +501,7 @@ TEST_F(BagSourceTest, ADatabaseWhosePagesLeadInCirclesEnds) {
   std::vector<TestMessage> messages;
   constexpr int kMessages = 100;
   for (int k = 0; k < kMessages; ++k)
-    messages.push_back(writer.image(kDepth, kBegin_ns + 1'000'000 * k, depth_image(k), "16UC1"));
+    messages.push_back(writer.image(kDepth, kBegin_ns + 1'000'000 * k, bag_depth(k), "16UC1"));
   write_db3(folder_ / "a.db3", messages);
   auto bytes = read_file(folder_ / "a.db3");
   // The root of the table: a page of children, each with its number (4 bytes, the highest first) and a key.

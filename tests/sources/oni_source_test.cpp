@@ -22,7 +22,7 @@ using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-constexpr int kFrames = 10;
+constexpr int kRecorded = 10;
 
 class OniSourceTest : public FolderTest {
  protected:
@@ -39,7 +39,7 @@ class OniSourceTest : public FolderTest {
 
   void record(OniWriterOptions options = {.colour_codec = OniColourCodec::none}) const {
     OniWriter writer(file(), options);
-    for (int k = 0; k < kFrames; ++k) writer.write(frame(k));
+    for (int k = 0; k < kRecorded; ++k) writer.write(frame(k));
     writer.close();
   }
 
@@ -64,13 +64,13 @@ TEST_F(OniSourceTest, GivesEveryFrameWithColourTimeAndCamera) {
   record();
   const auto source = open_source(file().string());
   EXPECT_EQ(source->info().kind, "oni");
-  EXPECT_EQ(source->info().frame_count, kFrames);
+  EXPECT_EQ(source->info().frame_count, kRecorded);
   EXPECT_EQ(source->info().size, cv::Size(32, 24));
   EXPECT_EQ(source->info().rate_hz, 30);
   EXPECT_EQ(source->info().intrinsics.origin, IntrinsicsOrigin::file);
   EXPECT_TRUE(source->info().notes.empty());
   Frame frame;
-  for (int k = 0; k < kFrames; ++k) {
+  for (int k = 0; k < kRecorded; ++k) {
     ASSERT_EQ(source->read(frame, kNoWait).status, ReadStatus::frame);
     expect_frame(frame, k);
   }
@@ -86,7 +86,7 @@ TEST_F(OniSourceTest, SeekingGivesTheFramesOfTheSequence) {
     ASSERT_EQ(source.read(frame, kNoWait).status, ReadStatus::frame);
     expect_frame(frame, k);
   }
-  source.seek(kFrames);
+  source.seek(kRecorded);
   EXPECT_EQ(source.read(frame, kNoWait).status, ReadStatus::end);
 }
 
@@ -114,7 +114,7 @@ TEST_F(OniSourceTest, DamagedColourCostsTheColourOnly) {
   }
   OniSource source(file());
   Frame frame;
-  for (int k = 0; k < kFrames; ++k) {
+  for (int k = 0; k < kRecorded; ++k) {
     const ReadResult result = source.read(frame, kNoWait);
     ASSERT_EQ(result.status, ReadStatus::frame);
     EXPECT_EQ(frame.colour.empty(), k == 2);
@@ -126,7 +126,7 @@ TEST_F(OniSourceTest, LossesAreNotes) {
   record();
   fs::resize_file(file(), fs::file_size(file()) * 2 / 3);
   const OniSource source(file());
-  EXPECT_LT(*source.info().frame_count, kFrames);
+  EXPECT_LT(*source.info().frame_count, kRecorded);
   EXPECT_THAT(source.info().notes, Contains(HasSubstr("not closed")));
 }
 

@@ -21,7 +21,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-constexpr Intrinsics kCamera{40, 41, 12, 9, IntrinsicsOrigin::file};
+constexpr Intrinsics kOsdCamera{40, 41, 12, 9, IntrinsicsOrigin::file};
 
 class OsdSourceTest : public FolderTest {
  protected:
@@ -71,7 +71,7 @@ TEST_F(OsdSourceTest, CloudsGiveDepthAndCamera) {
   cv::Mat1f depth(20, 24, 1500.0F);
   depth(5, 6) = 0;
   for (const auto encoding : {PcdEncoding::ascii, PcdEncoding::binary, PcdEncoding::compressed})
-    put_bytes("point_cloud/" + to_string(encoding) + ".pcd", write_pcd(depth, kCamera, encoding));
+    put_bytes("point_cloud/" + to_string(encoding) + ".pcd", write_pcd(depth, kOsdCamera, encoding));
   put_labels("ascii.png", 1);
   const auto source = open();
   EXPECT_EQ(source->info().size, cv::Size(24, 20));
@@ -87,8 +87,8 @@ TEST_F(OsdSourceTest, CloudsGiveDepthAndCamera) {
 }
 
 TEST_F(OsdSourceTest, DepthImagesComeBeforeClouds) {
-  put_bytes("point_cloud/a.pcd", write_pcd(cv::Mat1f(20, 24, 1500.0F), kCamera, PcdEncoding::binary));
-  put_bytes("point_cloud/b.pcd", write_pcd(cv::Mat1f(20, 24, 1700.0F), kCamera, PcdEncoding::binary));
+  put_bytes("point_cloud/a.pcd", write_pcd(cv::Mat1f(20, 24, 1500.0F), kOsdCamera, PcdEncoding::binary));
+  put_bytes("point_cloud/b.pcd", write_pcd(cv::Mat1f(20, 24, 1700.0F), kOsdCamera, PcdEncoding::binary));
   put_depth("depth/a.png", 800);
   put_depth("disparity/a.png", 700);
   put_labels("a.png", 1);
@@ -123,7 +123,7 @@ TEST_F(OsdSourceTest, FramesThatDoNotFitAreNamed) {
   put_depth("depth/a.png", 800);
   put_depth("depth/b.png", 800);
   put_labels("a.png", 1, {12, 10});
-  put_bytes("point_cloud/c.pcd", write_pcd(cv::Mat1f(10, 12, 900.0F), kCamera, PcdEncoding::ascii));
+  put_bytes("point_cloud/c.pcd", write_pcd(cv::Mat1f(10, 12, 900.0F), kOsdCamera, PcdEncoding::ascii));
   put_bytes("point_cloud/d.pcd", {1, 2, 3});
   put_labels("b.png", 1);
   const auto source = open();

@@ -10,6 +10,12 @@
 
 namespace saccade {
 
+/// The exit statuses of the program (ExitStatus).
+inline constexpr int kDone = 0, kFailed = 1, kUsage = 2, kUnreadable = 3, kUnfinished = 4;
+
+/// A small SOURCE of two frames.
+inline const std::string kSmallScene = "synthetic:table?frames=2&size=160x120";
+
 /// The exit status and the output of a program.
 struct ProgramResult {
   int status = -1;  ///< exit status; -signal if it was killed

@@ -5,11 +5,12 @@
 
 #include <gtest/gtest.h>
 
+#include "fixtures.hpp"
+
 namespace saccade {
 namespace {
 
-const cv::Vec3b kWood(60, 90, 130), kDarkWood(40, 60, 87), kGreen(60, 140, 60), kBlue(150, 70, 60),
-    kRed(40, 40, 160), kBlack(4, 6, 9);
+const cv::Vec3b kBlue(150, 70, 60), kRed(40, 40, 160);
 
 // 320 x 240 pixels, 80 x 60 cells: a wall and before it a board of 120 x 72 pixels, at 2 m half a square
 // metre, smaller than a supporting plane.

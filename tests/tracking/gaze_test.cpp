@@ -2,10 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include "fixtures.hpp"
+
 namespace saccade {
 namespace {
 
-constexpr std::int64_t kSecond_us = 1'000'000;
 using Targets = std::vector<Gaze::Target>;
 
 // The gaze at a time in seconds.

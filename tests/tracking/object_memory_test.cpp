@@ -4,12 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include "fixtures.hpp"
+
 namespace saccade {
 namespace {
-
-const Intrinsics kCamera{200, 200, 79.5, 59.5, IntrinsicsOrigin::sensor};
-const cv::Affine3d kStill;
-constexpr std::int64_t kSecond_us = 1'000'000;
 
 // A box before a wall, and its cells.
 class ObjectMemoryTest : public ::testing::Test {

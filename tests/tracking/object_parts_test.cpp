@@ -3,10 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include "fixtures.hpp"
+
 namespace saccade {
 namespace {
-
-const cv::Vec3b kWood(60, 90, 130), kDarkWood(40, 60, 87), kGreen(60, 140, 60), kBlack(4, 6, 9);
 
 // 320 x 240 pixels, 80 x 60 cells: a wall at 3 m and before it, at 1 m, three things side by side, each of 40
 // x 80 pixels, with a step of `step_mm` in depth from one to the next.

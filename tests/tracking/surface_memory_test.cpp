@@ -4,12 +4,12 @@
 
 #include <gtest/gtest.h>
 
+#include "fixtures.hpp"
+
 namespace saccade {
 namespace {
 
 constexpr double kFrame_s = 1.0 / 30;
-const Intrinsics kCamera{200, 200, 79.5, 59.5, IntrinsicsOrigin::sensor};
-const cv::Affine3d kStill;
 
 SurfaceGrid grid_of(const cv::Mat1f& depth_mm) {
   SurfaceGrid grid;

@@ -11,8 +11,6 @@
 namespace saccade {
 namespace {
 
-using Phase = RecordingStatus::Phase;
-
 std::string seconds_text(double seconds) {
   const auto whole = static_cast<long>(seconds);
   if (whole < 60) return fmt::format("{} s", whole);
@@ -40,9 +38,10 @@ void draw_headline(const SensorFacts& facts, std::chrono::steady_clock::time_poi
                  Tone::warning);
 }
 
-void draw_buttons(const SensorFacts& facts, SensorActions& actions) {
-  const bool recording = facts.recording.phase == Phase::recording;
-  ImGui::BeginDisabled(facts.recording.phase == Phase::closing || (!recording && !facts.source.open));
+void draw_sensor_buttons(const SensorFacts& facts, SensorActions& actions) {
+  const bool recording = facts.recording.phase == RecordingStatus::Phase::recording;
+  ImGui::BeginDisabled(facts.recording.phase == RecordingStatus::Phase::closing ||
+                       (!recording && !facts.source.open));
   if (recording) ImGui::PushStyleColor(ImGuiCol_Button, {0.70F, 0.10F, 0.10F, 1});
   if (recording) ImGui::PushStyleColor(ImGuiCol_Text, {1, 1, 1, 1});
   // One width for both labels, so that the buttons do not move.
@@ -183,16 +182,18 @@ Headline headline(const SourceFacts& source, std::chrono::steady_clock::time_poi
 
 Headline recording_line(const RecordingStatus& recording) {
   if (recording.file.empty()) return {};
-  const char* what = recording.phase == Phase::recording ? "Recording"
-                     : recording.phase == Phase::closing ? "Closing the file"
-                     : recording.error.empty()           ? "Recorded"
-                                                         : "Ended early";
+  const char* what = recording.phase == RecordingStatus::Phase::recording ? "Recording"
+                     : recording.phase == RecordingStatus::Phase::closing ? "Closing the file"
+                     : recording.error.empty()                            ? "Recorded"
+                                                                          : "Ended early";
   std::string text =
       fmt::format("{}: {}, {}, {}", what, seconds_text(recording.seconds), counted(recording.frames, "frame"),
                   megabytes(static_cast<double>(recording.bytes)));
   text += fmt::format(", {} dropped", recording.dropped);
   const bool trouble = recording.dropped > 0 || !recording.error.empty();
-  return {text, trouble ? Tone::warning : recording.phase == Phase::recording ? Tone::good : Tone::plain};
+  return {text, trouble                                                ? Tone::warning
+                : recording.phase == RecordingStatus::Phase::recording ? Tone::good
+                                                                       : Tone::plain};
 }
 
 SensorActions draw_sensors(const SensorFacts& facts, std::chrono::steady_clock::time_point now,
@@ -200,7 +201,7 @@ SensorActions draw_sensors(const SensorFacts& facts, std::chrono::steady_clock::
   SensorActions actions;
   draw_headline(facts, now, large);
   ImGui::Spacing();
-  draw_buttons(facts, actions);
+  draw_sensor_buttons(facts, actions);
   draw_written(facts);
   ImGui::Spacing();
   draw_devices(facts, actions);

@@ -41,7 +41,7 @@ void draw_recording_buttons(ViewContext& view) {
                 "Snapshot of this frame: depth, colour, points, map, overlay and fixations", view.px(3));
 }
 
-void draw_buttons(ViewContext& view) {
+void draw_transport_buttons(ViewContext& view) {
   const bool paused = view.playback.paused, live = view.source.source.live, loop = view.playback.loop;
   const float gap = view.px(3);
   if (!live) {
@@ -74,7 +74,7 @@ std::string position_text(const ViewContext& view, float room) {
 }
 
 void draw_contents(ViewContext& view) {
-  draw_buttons(view);
+  draw_transport_buttons(view);
   ImGui::SameLine(0, view.px(16));
   const std::string text = position_text(view, ImGui::GetContentRegionAvail().x);
   ImGui::AlignTextToFramePadding();

@@ -139,7 +139,7 @@ void draw_over_time(ViewContext& view) {
   ImGui::EndDisabled();
 }
 
-void draw_buttons(ViewContext& view) {
+void draw_tuning_buttons(ViewContext& view) {
   ImGui::BeginDisabled(!view.can_undo);
   if (ImGui::Button("Undo")) view.act(Action::undo);
   log_place(view, "undo");
@@ -186,7 +186,7 @@ void draw_tuning_panel(ViewContext& view) {
   draw_attention(view, s);
   draw_over_time(view);
   ImGui::Dummy({0, view.px(2)});
-  draw_buttons(view);
+  draw_tuning_buttons(view);
 }
 
 }  // namespace saccade

@@ -5,7 +5,7 @@
 namespace saccade {
 namespace {
 
-const cv::Size kImage(64, 48), kViewport(640, 480);
+const cv::Size kImage(64, 48), kPicture(640, 480);
 
 Frame wall() {
   Frame frame;
@@ -20,8 +20,8 @@ TEST(CloudPick, FindsThePixelWhosePointIsThere) {
   const Frame frame = wall();
   const OrbitCamera camera = camera_of(frame);
   for (const cv::Point pixel : {cv::Point(0, 0), cv::Point(20, 30), cv::Point(63, 47)}) {
-    const auto at = camera.project(frame.intrinsics.point_mm(pixel.y, pixel.x, 1000), kViewport);
-    EXPECT_EQ(pixel_at(camera, frame, *at, kViewport, 2), pixel);
+    const auto at = camera.project(frame.intrinsics.point_mm(pixel.y, pixel.x, 1000), kPicture);
+    EXPECT_EQ(pixel_at(camera, frame, *at, kPicture, 2), pixel);
   }
 }
 
@@ -29,16 +29,16 @@ TEST(CloudPick, OfTwoPointsInALineItIsTheNearer) {
   Frame frame = wall();
   frame.depth_mm(24, 40) = 500;
   OrbitCamera camera = camera_of(frame);
-  camera.orbit({40, 0}, kViewport);  // the near point is now before another part of the wall
-  const auto at = camera.project(frame.intrinsics.point_mm(24, 40, 500), kViewport);
-  EXPECT_EQ(pixel_at(camera, frame, *at, kViewport, 8), cv::Point(40, 24));
+  camera.orbit({40, 0}, kPicture);  // the near point is now before another part of the wall
+  const auto at = camera.project(frame.intrinsics.point_mm(24, 40, 500), kPicture);
+  EXPECT_EQ(pixel_at(camera, frame, *at, kPicture, 8), cv::Point(40, 24));
 }
 
 TEST(CloudPick, BesideAllPointsThereIsNone) {
   Frame frame = wall();
-  EXPECT_FALSE(pixel_at(camera_of(frame), frame, {-100, 10}, kViewport, 8));
+  EXPECT_FALSE(pixel_at(camera_of(frame), frame, {-100, 10}, kPicture, 8));
   frame.depth_mm = 0;
-  EXPECT_FALSE(pixel_at(camera_of(frame), frame, {320, 240}, kViewport, 8));
+  EXPECT_FALSE(pixel_at(camera_of(frame), frame, {320, 240}, kPicture, 8));
 }
 
 }  // namespace

@@ -11,8 +11,6 @@
 namespace saccade {
 namespace {
 
-using Phase = RecordingStatus::Phase;
-
 class RecordingSessionTest : public FolderTest {
  protected:
   static Frame frame_at(std::int64_t us, float depth_mm) {
@@ -26,7 +24,7 @@ class RecordingSessionTest : public FolderTest {
   RecordingStatus closed() {
     session_.stop();
     RecordingStatus status = session_.status();
-    for (; status.phase != Phase::idle; status = session_.status())
+    for (; status.phase != RecordingStatus::Phase::idle; status = session_.status())
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     return status;
   }
@@ -36,10 +34,10 @@ class RecordingSessionTest : public FolderTest {
 
 TEST_F(RecordingSessionTest, WritesFramesOfferedBetweenStartAndStop) {
   const auto file = folder_ / "a.oni";
-  EXPECT_EQ(session_.status().phase, Phase::idle);
+  EXPECT_EQ(session_.status().phase, RecordingStatus::Phase::idle);
   session_.offer(frame_at(0, 500));  // nobody records yet
   session_.start(file, {});
-  EXPECT_EQ(session_.status().phase, Phase::recording);
+  EXPECT_EQ(session_.status().phase, RecordingStatus::Phase::recording);
   EXPECT_THROW(session_.start(folder_ / "b.oni", {}), std::logic_error);
   for (int i = 1; i <= 5; ++i) session_.offer(frame_at(i * 40'000, 1000.0F + static_cast<float>(i)));
   const RecordingStatus status = closed();
@@ -89,7 +87,7 @@ TEST_F(RecordingSessionTest, AFileThatExistsIsRefused) {
   session_.offer(frame_at(0, 900));
   closed();
   EXPECT_THROW(session_.start(folder_ / "a.oni", {}), Error);
-  EXPECT_EQ(session_.status().phase, Phase::idle);
+  EXPECT_EQ(session_.status().phase, RecordingStatus::Phase::idle);
 }
 
 TEST_F(RecordingSessionTest, TheDestructorClosesTheFile) {

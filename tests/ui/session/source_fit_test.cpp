@@ -17,7 +17,7 @@ SourceInfo source_of(cv::Size size, bool has_depth) {
   return source;
 }
 
-const SourceInfo kSensor = source_of({640, 480}, true), kCamera = source_of({640, 480}, false);
+const SourceInfo kSensor = source_of({640, 480}, true), kPlainCamera = source_of({640, 480}, false);
 
 TEST(SourceFit, WithDepthEverythingStays) {
   ComparedSettings settings;
@@ -30,11 +30,11 @@ TEST(SourceFit, WithoutDepthAModelOfTheImageIsShownUntilThereIsDepthAgain) {
   settings.b.model = "itti";
   const ComparedSettings before = settings;
   SourceFit fit;
-  EXPECT_THAT(fit.fit(settings, kCamera), ElementsAre(HasSubstr("symmetry3d needs depth")));
+  EXPECT_THAT(fit.fit(settings, kPlainCamera), ElementsAre(HasSubstr("symmetry3d needs depth")));
   EXPECT_EQ(settings.a.model, "colour_symmetry2d");
   EXPECT_EQ(settings.a.selector, Selector::wta);
   EXPECT_EQ(settings.b.model, "itti") << "it needs none";
-  EXPECT_THAT(fit.fit(settings, kCamera), ElementsAre(HasSubstr("symmetry3d needs depth")))
+  EXPECT_THAT(fit.fit(settings, kPlainCamera), ElementsAre(HasSubstr("symmetry3d needs depth")))
       << "another camera";
   EXPECT_THAT(fit.fit(settings, kSensor), IsEmpty());
   EXPECT_EQ(settings, before);
@@ -43,7 +43,7 @@ TEST(SourceFit, WithoutDepthAModelOfTheImageIsShownUntilThereIsDepthAgain) {
 TEST(SourceFit, AChoiceSinceStays) {
   ComparedSettings settings;
   SourceFit fit;
-  EXPECT_THAT(fit.fit(settings, kCamera), SizeIs(1));
+  EXPECT_THAT(fit.fit(settings, kPlainCamera), SizeIs(1));
   settings.a.model = "radial2d";
   EXPECT_THAT(fit.fit(settings, kSensor), IsEmpty());
   EXPECT_EQ(settings.a.model, "radial2d");
