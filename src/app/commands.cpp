@@ -1,5 +1,9 @@
 #include "app/commands.hpp"
 
+#include <sstream>
+
+#include <CLI/CLI.hpp>
+
 #include "app/bench_command.hpp"
 #include "app/devices_command.hpp"
 #include "app/doctor_command.hpp"
@@ -9,8 +13,10 @@
 #include "app/record_command.hpp"
 #include "app/run_command.hpp"
 #include "app/settings_command.hpp"
+#include "app/standard_output.hpp"
 #include "app/version_option.hpp"
 #include "app/view_command.hpp"
+#include "core/error.hpp"
 
 namespace saccade {
 
@@ -29,6 +35,23 @@ void add_commands(CLI::App& app, std::function<void()>& action,
   add_oni_command(app, action);
   add_settings_command(app, action);
   add_bench_command(app, action);
+}
+
+void run_command_line(int argc, char** argv) {
+  CLI::App app;
+  std::function<void()> action;
+  add_commands(app, action, {argv, argv + argc});
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& success) {  // --help
+    std::ostringstream text;
+    app.exit(success, text);
+    return print_text(text.str(), Reader::may_leave);
+  } catch (const CLI::ParseError& error) {
+    throw usage_error(error.what(), "", "see saccade --help");
+  }
+  if (!action) throw usage_error("no command", "", "see saccade --help");
+  action();
 }
 
 }  // namespace saccade

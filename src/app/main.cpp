@@ -3,20 +3,16 @@
 #include <cstdio>
 #include <exception>
 #include <filesystem>
-#include <functional>
 #include <memory>
 #include <new>
-#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <system_error>
 #include <utility>
-#include <vector>
 
 #include <spdlog/pattern_formatter.h>
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
-#include <CLI/CLI.hpp>
 #include <opencv2/core.hpp>
 
 #include "app/commands.hpp"
@@ -57,28 +53,6 @@ void set_up_log() {
   spdlog::set_formatter(std::move(formatter));
 }
 
-int run_program(int argc, char** argv) {
-  set_up_log();
-
-  CLI::App app;
-  std::function<void()> action;
-  saccade::add_commands(app, action, {argv, argv + argc});
-
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::Success& success) {  // --help
-    std::ostringstream text;
-    app.exit(success, text);
-    saccade::print_text(text.str(), saccade::Reader::may_leave);
-    return static_cast<int>(ExitStatus::done);
-  } catch (const CLI::ParseError& error) {
-    return report(std::string(error.what()) + " (see saccade --help)", ExitStatus::usage);
-  }
-  if (!action) return report("no command (see saccade --help)", ExitStatus::usage);
-  action();
-  return static_cast<int>(ExitStatus::done);
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -87,7 +61,9 @@ int main(int argc, char** argv) {
   std::signal(SIGXFSZ, SIG_IGN);
   std::signal(SIGPIPE, SIG_IGN);
   try {
-    return run_program(argc, argv);
+    set_up_log();
+    saccade::run_command_line(argc, argv);
+    return static_cast<int>(ExitStatus::done);
   } catch (const saccade::Error& error) {
     return report(error.what(), error.status());
   } catch (const std::bad_alloc&) {

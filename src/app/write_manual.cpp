@@ -3,6 +3,8 @@
 #include <filesystem>
 #include <functional>
 
+#include <CLI/CLI.hpp>
+
 #include "app/commands.hpp"
 #include "app/completion.hpp"
 #include "app/manual.hpp"
