@@ -1,31 +1,8 @@
 #include "tracking/colour_patches.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace saccade {
-namespace {
-
-// Blue and red, as parts of b + g + r, of the four pixels in the middle of a cell; dark ones have none.
-cv::Vec2f chromaticity(const SurfaceGrid& grid, const cv::Mat3b& colour, int cell) {
-  constexpr int kMiddle = SurfaceGrid::kCellPx / 2 - 1;
-  const int row = cell / grid.cols() * SurfaceGrid::kCellPx + kMiddle,
-            col = cell % grid.cols() * SurfaceGrid::kCellPx + kMiddle;
-  cv::Vec3i sum;
-  for (int r = row; r < std::min(colour.rows, row + 2); ++r)
-    for (int c = col; c < std::min(colour.cols, col + 2); ++c) sum += cv::Vec3i(colour(r, c));
-  const int all = sum[0] + sum[1] + sum[2];
-  if (all < 4 * ColourPatches::kDarkest) return {-1, -1};
-  return cv::Vec2f(static_cast<float>(sum[0]), static_cast<float>(sum[2])) / static_cast<float>(all);
-}
-
-float distance(const cv::Vec2f& a, const cv::Vec2f& b) {
-  const float blue = a[0] - b[0], red = a[1] - b[1], green = -blue - red;
-  return std::sqrt(blue * blue + green * green + red * red);
-}
-
-}  // namespace
-
 void ColourPatches::cut(const SurfaceGrid& grid, const cv::Mat3b& colour, SurfaceSegments& segments) {
   if (colour.empty()) return;
   colour_.reserve(grid.size());
@@ -58,46 +35,12 @@ void ColourPatches::measure_areas(const SurfaceGrid& grid, const SurfaceSegments
   }
 }
 
-// The mean colour around the fullest bin; none if too few cells have it.
-std::optional<cv::Vec2f> ColourPatches::own_colour() {
-  bins_.assign(kBins * kBins, 0);
-  const auto bin = [](float part) { return std::min(kBins - 1, static_cast<int>(part * kBins)); };
-  for (const cv::Vec2f& colour : colour_)
-    if (colour[0] >= 0) ++bins_[at(bin(colour[0]) * kBins + bin(colour[1]))];
-  int most = -1, fullest = 0;
-  for (int b = 1; b + 1 < kBins; ++b)
-    for (int r = 1; r + 1 < kBins; ++r) {
-      int sum = 0;
-      for (int i = b - 1; i <= b + 1; ++i)
-        for (int j = r - 1; j <= r + 1; ++j) sum += bins_[at(i * kBins + j)];
-      if (sum <= most) continue;
-      most = sum;
-      fullest = b * kBins + r;
-    }
-  cv::Vec2f sum;
-  int count = 0;
-  for (const cv::Vec2f& colour : colour_) {
-    if (colour[0] < 0 || std::abs(bin(colour[0]) - fullest / kBins) > 1 ||
-        std::abs(bin(colour[1]) - fullest % kBins) > 1)
-      continue;
-    sum += colour;
-    ++count;
-  }
-  if (count == 0) return std::nullopt;
-  const cv::Vec2f own = sum / static_cast<float>(count);
-  const auto like = std::count_if(colour_.begin(), colour_.end(), [&](const cv::Vec2f& colour) {
-    return colour[0] >= 0 && distance(colour, own) <= kOwnColour;
-  });
-  if (static_cast<double>(like) < kOwnShare * static_cast<double>(colour_.size())) return std::nullopt;
-  return own;
-}
-
 // False if the segment has no colour of its own.
 bool ColourPatches::mark_others(const SurfaceGrid& grid, const cv::Mat3b& colour,
                                 std::span<const int> cells) {
   colour_.clear();
   for (const int cell : cells) colour_.push_back(chromaticity(grid, colour, cell));
-  const auto own = own_colour();
+  const auto own = own_colour_.find(colour_, kOwnShare);
   if (!own) return false;
   for (std::size_t k = 0; k < cells.size(); ++k)
     if (colour_[k][0] >= 0 && distance(colour_[k], *own) > kOtherColour) state_[at(cells[k])] = State::other;

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -9,6 +8,7 @@
 #include "attention/cells_of_segments.hpp"
 #include "attention/surface_grid.hpp"
 #include "attention/surface_segments.hpp"
+#include "tracking/own_colour.hpp"
 
 namespace saccade {
 
@@ -21,11 +21,10 @@ namespace saccade {
 class ColourPatches {
  public:
   static constexpr double kLeastArea_mm2 = 250e3;  ///< of a segment that is searched
-  static constexpr float kOwnColour = 0.06F;    ///< distance of chromaticities from the segment's own colour
-  static constexpr float kOtherColour = 0.08F;  ///< of cells that may be cut out
-  static constexpr double kOwnShare = 0.3;      ///< of the segment's cells
-  static constexpr int kReach = 2;              ///< cells; some cell of a patch has only its cells so near
-  static constexpr int kDarkest = 40;           ///< b + g + r; below it the colour is noise
+  static constexpr float kOtherColour =
+      0.08F;                                ///< distance from its own colour, of cells that may be cut out
+  static constexpr double kOwnShare = 0.3;  ///< of the segment's cells
+  static constexpr int kReach = 2;          ///< cells; some cell of a patch has only its cells so near
 
   /// colour: H x W of the grid's frame, BGR; empty = nothing is cut.
   void cut(const SurfaceGrid& grid, const cv::Mat3b& colour, SurfaceSegments& segments);
@@ -36,16 +35,13 @@ class ColourPatches {
 
   void measure_areas(const SurfaceGrid& grid, const SurfaceSegments& segments);
   bool mark_others(const SurfaceGrid& grid, const cv::Mat3b& colour, std::span<const int> cells);
-  std::optional<cv::Vec2f> own_colour();
   void collect(const SurfaceGrid& grid, int seed);
   bool is_strip(const SurfaceGrid& grid) const;
 
-  static constexpr int kBins = 32;  // of each of the two chromaticities
-
   CellsOfSegments cells_of_segments_;
+  OwnColour own_colour_;
   std::vector<double> area_mm2_;   // by segment
   std::vector<cv::Vec2f> colour_;  // of each cell of one segment: blue and red
-  std::vector<int> bins_;          // of these colours
   std::vector<State> state_;
   std::vector<int> patch_;
 };

@@ -17,8 +17,14 @@ void ObjectParts::find(const SurfaceGrid& grid, const SurfaceSegments& segments,
   // Where one of the two is out of sight, nothing is learnt of them.
   for (Pair& pair : pairs_)
     if (is_seen(objects.find(pair.a)) && is_seen(objects.find(pair.b))) pair.left_s -= seconds;
+  const auto& slots = objects.slots();
+  find_cells(grid, segments, objects);
+  for (const HeldObjects::Pair& pair : held_.find(grid, slot_of_, static_cast<int>(slots.size())))
+    note(slots[at(pair.held)], slots[at(pair.holder)]);
   if (!colour.empty()) {
-    look_at(grid, segments, colour, objects);
+    looks_.assign(slots.size(), {});
+    for (std::size_t slot = 0; slot < slots.size(); ++slot)
+      look_at(grid, segments, colour, slots[slot], static_cast<int>(slot));
     count_contacts(grid);
     pair_up(objects);
   }
@@ -28,29 +34,32 @@ void ObjectParts::find(const SurfaceGrid& grid, const SurfaceSegments& segments,
   name_things(objects);
 }
 
-void ObjectParts::look_at(const SurfaceGrid& grid, const SurfaceSegments& segments, const cv::Mat3b& colour,
-                          const ObjectMemory& objects) {
-  looks_.assign(objects.slots().size(), {});
+// Whose each cell is, in segments that are no supporting planes.
+void ObjectParts::find_cells(const SurfaceGrid& grid, const SurfaceSegments& segments,
+                             const ObjectMemory& objects) {
   slot_of_.assign(grid.size(), kNoSlot);
-  for (std::size_t slot = 0; slot < looks_.size(); ++slot) {
+  for (std::size_t slot = 0; slot < objects.slots().size(); ++slot) {
     const TrackedObject& object = objects.slots()[slot];
-    if (object.alive && object.id != 0 && is_seen(&object) && !object.disc)
-      look_at(grid, segments, colour, object, static_cast<int>(slot));
+    if (!object.alive || object.id == 0 || !is_seen(&object) || object.disc) continue;
+    for (const int cell : object.cells) {
+      const int segment = segments.of_cell()[at(cell)];
+      if (segment != SurfaceSegments::kNone && !segments.is_supporting_plane(segment))
+        slot_of_[at(cell)] = static_cast<int>(slot);
+    }
   }
 }
 
-// The colour of a cell is that of a pixel near its middle. Bright cells count more: the colour of dark ones
-// is noise.
+// The mean colour is that of a pixel near the middle of each cell. Bright cells count more: the colour of
+// dark ones is noise.
 void ObjectParts::look_at(const SurfaceGrid& grid, const SurfaceSegments& segments, const cv::Mat3b& colour,
                           const TrackedObject& object, int slot) {
   constexpr int kMiddle = SurfaceGrid::kCellPx / 2 - 1;
   cv::Vec3d sum;
   double brightness = 0, squares = 0;
-  int cells = 0;
+  colours_.clear();
+  brightness_.clear();
   for (const int cell : object.cells) {
-    const int segment = segments.of_cell()[at(cell)];
-    if (segment == SurfaceSegments::kNone || segments.is_supporting_plane(segment)) continue;
-    slot_of_[at(cell)] = slot;
+    if (slot_of_[at(cell)] != slot) continue;
     const int row = std::min(colour.rows - 1, cell / grid.cols() * SurfaceGrid::kCellPx + kMiddle),
               col = std::min(colour.cols - 1, cell % grid.cols() * SurfaceGrid::kCellPx + kMiddle);
     const cv::Vec3d pixel(colour(row, col));
@@ -58,13 +67,31 @@ void ObjectParts::look_at(const SurfaceGrid& grid, const SurfaceSegments& segmen
     sum += pixel;
     brightness += bright;
     squares += pixel.dot(pixel) / bright;  // = bright |chromaticity|^2
-    ++cells;
+    colours_.push_back(chromaticity(grid, colour, cell));
+    brightness_.push_back(bright);
   }
-  if (cells == 0) return;
+  if (colours_.empty()) return;
   Look& look = looks_[at(slot)];
   look.colour = sum / brightness;
   look.spread = std::sqrt(std::max(0.0, squares / brightness - look.colour.dot(look.colour)));
-  look.log_brightness = std::log(brightness / cells);
+  look.log_brightness = std::log(brightness / static_cast<double>(colours_.size()));
+  const int segment =
+      object.anchor_cell >= 0 ? segments.of_cell()[at(object.anchor_cell)] : SurfaceSegments::kNone;
+  if (segment != SurfaceSegments::kNone && segments.is_cut(segment)) return;
+  look.own = own_colour_.find(colours_, kOwnShare);
+  if (look.own) look.own_log_brightness = log_brightness_of(*look.own);
+}
+
+// Mean logarithm of the brightness of the cells that have a colour.
+double ObjectParts::log_brightness_of(const cv::Vec2f& own) const {
+  double sum = 0;
+  int count = 0;
+  for (std::size_t k = 0; k < colours_.size(); ++k) {
+    if (colours_[k][0] < 0 || distance(colours_[k], own) > OwnColour::kReach) continue;
+    sum += std::log(brightness_[k]);
+    ++count;
+  }
+  return sum / count;
 }
 
 void ObjectParts::count_contacts(const SurfaceGrid& grid) {
@@ -89,8 +116,14 @@ void ObjectParts::count_contacts(const SurfaceGrid& grid) {
 bool ObjectParts::cling(std::size_t a, std::size_t b) const {
   const int links = links_[a * looks_.size() + b];
   const Look &one = looks_[a], &other = looks_[b];
-  return links > 0 && links >= kContact * std::min(one.outline, other.outline) &&
-         std::hypot(cv::norm(one.colour - other.colour), one.spread - other.spread) < kSameColour &&
+  return links > 0 && links >= kContact * std::min(one.outline, other.outline) && have_one_colour(one, other);
+}
+
+bool ObjectParts::have_one_colour(const Look& one, const Look& other) {
+  if (one.own && other.own && static_cast<double>(distance(*one.own, *other.own)) < kSameOwnColour &&
+      std::abs(one.own_log_brightness - other.own_log_brightness) < kSameBrightness)
+    return true;
+  return std::hypot(cv::norm(one.colour - other.colour), one.spread - other.spread) < kSameColour &&
          std::abs(one.log_brightness - other.log_brightness) < kSameBrightness;
 }
 

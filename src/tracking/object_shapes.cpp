@@ -29,7 +29,7 @@ void ObjectShapes::claim(const SurfaceGrid& grid, const SurfaceSegments& segment
   seed(objects, surfaces);
   measure_segments(surfaces);
   follow_moved(objects, to_world, surfaces);
-  choose_segments(objects, seconds);
+  choose_segments(objects, seconds, surfaces);
   take_segments(objects, surfaces);
   divide_segments(objects, surfaces);
   keep_anchors(objects, surfaces);
@@ -131,13 +131,25 @@ void ObjectShapes::count_overlaps(const std::vector<int>& cells) {
     if (const int segment = segment_of(cell); segment != SurfaceSegments::kNone) ++overlap_[at(segment)];
 }
 
-void ObjectShapes::choose_segments(ObjectMemory& objects, double seconds) {
+void ObjectShapes::choose_segments(ObjectMemory& objects, double seconds, SurfaceMemory& surfaces) {
   for (TrackedObject& object : objects.slots()) {
     if (!is_visible(object)) continue;
     count_overlaps(object.cells);
     const int own_segment = choose_segment(object, seconds);
     if (object.id != 0) add_claims(object, objects.owner_of(object) - 1, own_segment);
+    release_patches(object, own_segment, surfaces);
   }
+}
+
+// What was cut out by its colour is not its, unless its anchor is there.
+void ObjectShapes::release_patches(TrackedObject& object, int own_segment, SurfaceMemory& surfaces) const {
+  std::erase_if(object.cells, [&](int cell) {
+    const int segment = segment_of(cell);
+    if (segment == SurfaceSegments::kNone || segment == own_segment || !segments_->is_cut(segment))
+      return false;
+    surfaces.owner()[at(cell)] = SurfaceMemory::kNobody;
+    return true;
+  });
 }
 
 // What was cut out by its colour is not a part of what it was cut out of.
@@ -157,7 +169,8 @@ void ObjectShapes::add_claims(const TrackedObject& object, int slot, int own_seg
 }
 
 // The segment under the anchor or, where that is hidden, the one that holds the most of the object's cells.
-// Gives it, taken or not.
+// What was cut out by its colour is taken at once: the noise of depth has no part in it. Gives the segment,
+// taken or not.
 int ObjectShapes::choose_segment(TrackedObject& object, double seconds) {
   int segment = SurfaceSegments::kNone;
   if (object.anchor_cell >= 0)
@@ -170,7 +183,8 @@ int ObjectShapes::choose_segment(TrackedObject& object, double seconds) {
   const int all = (whole ? facts_[at(segment)].cells : 0) + static_cast<int>(object.cells.size()) - shared;
   const bool same = whole && shared >= kSameShape * all;
   object.other_shape_s = same ? 0 : object.other_shape_s + seconds;
-  if (!same && object.other_shape_s <= kPatience_s) return segment;
+  const bool cut = whole && segments_->is_cut(segment);
+  if (!same && !cut && object.other_shape_s <= kPatience_s) return segment;
   object.other_shape_s = 0;
   object.disc = !whole;
   if (whole) object.segment = segment;

@@ -16,6 +16,9 @@ namespace saccade {
 /// cuts segments from frame to frame.
 ///  - The segment under an object's anchor becomes the object's shape if it covers about the cells that were
 ///    carried, or if it has been another one for kPatience_s.
+///  - A segment that was cut out by its colour (ColourPatches) is at once the shape of the object that has
+///  its
+///    anchor there, and no other object's.
 ///  - A segment in which several objects have a good part of their cells is divided: each keeps its cells,
 ///  the
 ///    rest goes to the object with the nearest anchor.
@@ -53,7 +56,8 @@ class ObjectShapes {
   void seed(ObjectMemory& objects, SurfaceMemory& surfaces);
   void follow_moved(ObjectMemory& objects, const cv::Affine3d& to_world, SurfaceMemory& surfaces);
   int segment_moved_to(const TrackedObject& object, const cv::Affine3d& to_world) const;
-  void choose_segments(ObjectMemory& objects, double seconds);
+  void choose_segments(ObjectMemory& objects, double seconds, SurfaceMemory& surfaces);
+  void release_patches(TrackedObject& object, int own_segment, SurfaceMemory& surfaces) const;
   int choose_segment(TrackedObject& object, double seconds);
   void add_claims(const TrackedObject& object, int slot, int own_segment);
   void take_segments(ObjectMemory& objects, SurfaceMemory& surfaces);

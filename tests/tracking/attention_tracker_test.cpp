@@ -456,7 +456,7 @@ TEST(AttentionTracker, WhatOnlyColourShowsHasItsOwnFixation) {
   FrameFollower follower;
   AttentionTracker tracker(10, 0, {});
   Attention attention;
-  for (int k = 0; k < 30; ++k) {
+  for (int k = 0; k < 5; ++k) {
     follower.start(frame);
     follower.wait();
     tracker.attend(frame, map, follower.surfaces(), follower.step(), attention);

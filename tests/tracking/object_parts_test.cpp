@@ -1,4 +1,5 @@
-// Objects that cling to each other and have the same colour are parts of one thing.
+// Objects that cling to each other and have the same colour are parts of one thing, and what is held of its
+// holder.
 #include "tracking/object_parts.hpp"
 
 #include <gtest/gtest.h>
@@ -77,6 +78,47 @@ TEST_F(ObjectPartsTest, ColoursThatAreTheSameOnAverageAreNot) {
   watch(3);
   EXPECT_EQ(thing_of(a), a);
   EXPECT_EQ(thing_of(b), b);
+}
+
+// The boards of a shelf, of which one has a book before it.
+TEST_F(ObjectPartsTest, WhatMostOfBothHaveIsTheirColour) {
+  const int a = add(0, kWood), b = add(1, kWood);
+  colour_(cv::Rect(144, 80, 32, 28)) = kGreen;  // 28 of 80 rows, 8 of 10 columns
+  watch(1);
+  EXPECT_EQ(thing_of(b), a);
+}
+
+TEST_F(ObjectPartsTest, WhatTheyHaveHereAndThereIsNot) {
+  const int a = add(0, kWood), b = add(1, kWood);
+  colour_(cv::Rect(140, 80, 40, 32)) = kGreen;
+  watch(3);
+  EXPECT_EQ(thing_of(a), a);
+  EXPECT_EQ(thing_of(b), b);
+}
+
+// A pole under a shade, of other colours.
+TEST_F(ObjectPartsTest, WhatIsHeldIsAPartOfItsHolder) {
+  cv::Mat1f depth(240, 320, 3000.0F);
+  const cv::Rect shade(120, 40, 80, 40), pole(156, 80, 8, 80);
+  depth(shade) = 1000;
+  depth(pole) = 1000;
+  grid_.build(depth, Intrinsics::guess_for(depth.size()));
+  segments_.grow(grid_);
+  for (const cv::Rect& place : {shade, pole}) {
+    TrackedObject& object = objects_.add();
+    objects_.give_id(object);
+    object.sight = Sight::visible;
+    for (int row = place.y; row < place.br().y; row += 4)
+      for (int col = place.x; col < place.br().x; col += 4) object.cells.push_back(row / 4 * 80 + col / 4);
+  }
+  colour_(shade) = kGreen;
+  colour_(pole) = kBlack;
+  watch(1);
+  EXPECT_EQ(thing_of(2), 1);
+  colour_.release();
+  parts_.clear();
+  watch(1);
+  EXPECT_EQ(thing_of(2), 1) << "without colour too";
 }
 
 TEST_F(ObjectPartsTest, AStepInDepthParts) {
