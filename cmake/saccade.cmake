@@ -40,7 +40,7 @@ set_target_properties(saccade_opencv PROPERTIES EXPORT_NAME opencv)
 # The large headers that most files include, precompiled once for all libraries: it saves a quarter to a half of the time
 # of a file. Each includes what it needs all the same, which the preset tidy checks, where nothing is precompiled.
 #
-# The preset release also compiles the files of a target together, eight at a time (CMAKE_UNITY_BUILD), which halves the time
+# The preset release also compiles the files of a target together, sixteen at a time (CMAKE_UNITY_BUILD), which halves the time
 # of a build from nothing. So names in anonymous namespaces are unique within a room, and within a test program:
 # CMAKE_UNITY_BUILD_BATCH_SIZE=0, which makes one unit of each target, shows whether they are. Nor are they names of headers
 # there: such a name would hide that of the header from the other files without an error. The other presets compile file by

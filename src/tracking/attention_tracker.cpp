@@ -9,6 +9,16 @@
 #include "tracking/cell_projection.hpp"
 
 namespace saccade {
+namespace {
+
+bool leaves_view(const TrackedObject& object, const SurfaceGrid& grid) {
+  return std::any_of(object.cells.begin(), object.cells.end(), [&](int cell) {
+    const int row = cell / grid.cols(), col = cell % grid.cols();
+    return row == 0 || col == 0 || row + 1 == grid.rows() || col + 1 == grid.cols();
+  });
+}
+
+}  // namespace
 
 AttentionTracker::AttentionTracker(int fixations, double min_confidence, const TrackingSettings& settings)
     : objects_(settings.memory_s), gaze_({settings.dwell_s, settings.return_after_s}) {
@@ -75,7 +85,8 @@ void AttentionTracker::attend(const Frame& frame, const cv::Mat1f& saliency, con
   objects_.forget(frame.timestamp_us, memory_.owner());
 }
 
-// The means go over the same time as that of the evidence.
+// The means go over the same time as that of the evidence. What the edge of the image cuts shows less of its
+// border, which is no reason to doubt it.
 void AttentionTracker::judge(const AttentionOrder::View& view, const FrameSurfaces& surfaces,
                              const std::vector<std::size_t>& chosen) {
   // The cell that would win alone, as the saliency of proto is relative to its first. That of the first
@@ -89,11 +100,21 @@ void AttentionTracker::judge(const AttentionOrder::View& view, const FrameSurfac
     const float relative = strongest > 0 ? saliency / strongest : 1;
     const float share = std::max(1 / static_cast<float>(++object.times_judged), least);
     object.mean_saliency += share * (saliency_of(view, object) - object.mean_saliency);
-    object.mean_confidence +=
-        share * (surfaces.confidence_at(object.point_cell, relative) - object.mean_confidence);
+    const float confidence = surfaces.confidence_at(object.point_cell, relative);
+    if (object.times_judged == 1 || confidence > object.mean_confidence || !leaves_view(object, view.grid))
+      object.mean_confidence += share * (confidence - object.mean_confidence);
     if (object.times_judged == 1 || std::abs(object.mean_confidence - object.confidence) > kConfidenceMargin)
-      object.confidence = object.mean_confidence;
+      object.confidence = confidence_to_report(object);
   }
+}
+
+// What was sure enough to be reported stays so until its mean is more than the margin below the threshold.
+float AttentionTracker::confidence_to_report(const TrackedObject& object) const {
+  const auto least = static_cast<float>(min_confidence_);
+  const bool was_sure = object.times_judged > 1 && object.confidence >= least;
+  return was_sure && object.mean_confidence >= least - kConfidenceMargin
+             ? std::max(object.mean_confidence, least)
+             : object.mean_confidence;
 }
 
 // The map at the strongest cell of the object; in the first frame that is the cell that has won.
@@ -112,7 +133,7 @@ void AttentionTracker::report(const AttentionOrder::View& view, const std::vecto
   reported_.clear();
   for (const std::size_t slot : chosen) {
     const TrackedObject& object = objects_.slots()[slot];
-    if (static_cast<double>(object.confidence) < min_confidence_) continue;
+    if (object.confidence < static_cast<float>(min_confidence_)) continue;
     reported_.push_back(slot);
     const cv::Point pixel = point_of(view, object);
     Fixation fixation = fixation_at(view.saliency, frame.depth_mm, frame.intrinsics, pixel.y, pixel.x);

@@ -27,7 +27,8 @@ namespace saccade {
 class AttentionTracker {
  public:
   /// How far the mean over time of an object's confidence must be from the confidence reported for it to be
-  /// reported itself. So an object does not come and go because its confidence is near the limit.
+  /// reported itself, and how far below the threshold for an object that was reported to be left out. So an
+  /// object does not come and go because its confidence is near the limit.
   static constexpr float kConfidenceMargin = 0.1F;
 
   /// fixations: the greatest number per frame. min_confidence: 0..1, objects below it are remembered but not
@@ -61,6 +62,7 @@ class AttentionTracker {
  private:
   void judge(const AttentionOrder::View& view, const FrameSurfaces& surfaces,
              const std::vector<std::size_t>& chosen);
+  float confidence_to_report(const TrackedObject& object) const;
   float saliency_of(const AttentionOrder::View& view, const TrackedObject& object) const;
   void report(const AttentionOrder::View& view, const std::vector<std::size_t>& chosen, Attention& attention);
   const std::vector<int>& cells_of_thing(const TrackedObject& object);

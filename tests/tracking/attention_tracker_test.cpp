@@ -393,6 +393,79 @@ TEST_F(AttentionTrackerTest, OrderChangesByAMarginOnly) {
   EXPECT_NE(attention_.fixations.front().id, first) << "much weaker";
 }
 
+// Two blocks before a wall, one of them always the more salient. The camera moves to the right, so that the
+// other one leaves the view.
+class TwoBlocks {
+ public:
+  explicit TwoBlocks(double min_confidence) : tracker_(10, min_confidence, {}) {
+    cv::setNumThreads(1);
+    frame_.intrinsics = {200, 200, 159.5, 119.5, IntrinsicsOrigin::sensor};
+  }
+
+  // The less salient block's fixation; none if it is not reported. moved: px of the blocks. saliency: of it,
+  // relative to the other one.
+  std::optional<Fixation> see(int moved, float saliency) {
+    const cv::Rect image(0, 0, 320, 240);
+    const cv::Rect weak = cv::Rect(40 - moved, 80, 80, 80) & image, strong(200 - moved, 80, 80, 80);
+    frame_.depth_mm = cv::Mat1f(image.size(), 3000.0F);
+    frame_.depth_mm(weak) = 1000;
+    frame_.depth_mm(strong) = 1000;
+    cv::Mat1f map(image.size(), 0.0F);
+    map(weak) = saliency;
+    map(strong) = 1;
+    follower_.start(frame_);
+    follower_.wait();
+    CameraStep step;
+    step.cut = frame_.index == 0;
+    step.to_world = cv::Affine3d().translate({5.0 * moved, 0, 0});  // 5 mm a pixel at 1 m
+    step.to_previous = cv::Affine3d().translate({5.0 * (moved - moved_), 0, 0});
+    moved_ = moved;
+    Attention attention;
+    tracker_.attend(frame_, map, follower_.surfaces(), step, attention);
+    ++frame_.index;
+    frame_.timestamp_us += 100'000;
+    for (const Fixation& fixation : attention.fixations)
+      if (fixation.col < strong.x && weak.contains({fixation.col, fixation.row})) return fixation;
+    return std::nullopt;
+  }
+
+ private:
+  Frame frame_;
+  FrameFollower follower_;
+  AttentionTracker tracker_;
+  int moved_ = 0;
+};
+
+TEST(AttentionTracker, WhatLeavesTheViewIsNotDoubted) {
+  TwoBlocks blocks(0);
+  const auto whole = blocks.see(0, 0.01F);
+  ASSERT_TRUE(whole);
+  for (int k = 1; k <= 60; ++k) {
+    const int moved = std::min(4 * k, 104);
+    const auto cut = blocks.see(moved, 0.01F);
+    ASSERT_TRUE(cut) << moved;
+    EXPECT_GE(*cut->confidence, *whole->confidence - 0.001F) << moved;
+  }
+}
+
+TEST(AttentionTracker, WhatWasReportedStaysUntilItIsWellBelowTheThreshold) {
+  const float before = *TwoBlocks(0).see(0, 1)->confidence, after = *TwoBlocks(0).see(0, 0.01F)->confidence;
+  ASSERT_GT(before - after, 0.107);
+  const double stays = after + 0.09, goes = after + 0.105;
+  for (const double threshold : {stays, goes}) {
+    TwoBlocks sure(threshold);
+    ASSERT_TRUE(sure.see(0, 1));
+    std::optional<Fixation> last;
+    for (int k = 0; k < 60; ++k) {
+      last = sure.see(0, 0.01F);
+      if (last) {
+        EXPECT_GE(*last->confidence, static_cast<float>(threshold));
+      }
+    }
+    EXPECT_EQ(last.has_value(), threshold == stays) << threshold;
+  }
+}
+
 // The two sides of a valley are two objects by their shape. Colours: of the left and the right side.
 std::vector<Attention> look_at_valley(const cv::Vec3b& left, const cv::Vec3b& right, int frames) {
   cv::setNumThreads(1);
