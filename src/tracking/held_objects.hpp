@@ -16,14 +16,12 @@ namespace saccade {
 /// one call at a time per object.
 class HeldObjects {
  public:
-  static constexpr double kNarrower = 0.8;  ///< width of the holder, of what it holds, at most
-  static constexpr double kUnder =
-      0.6;  ///< share of the holder's upper edge that is right under it, at least
-  static constexpr double kBeside = 0.1;  ///< share of the holder's sides that touch it, at most
-  static constexpr double kStands =
-      0.7;                         ///< share of the lower edge of what is held that rests on others, at most
-  static constexpr int kEdge = 2;  ///< cells; how far the upper edge of the holder may go down
-  static constexpr int kGap = 2;   ///< cells without depth, or with something far behind, in between
+  static constexpr double kNarrower = 0.8;  ///< at most: width of the holder, of that of what it holds
+  static constexpr double kUnder = 0.6;     ///< at least: share of the holder's upper edge right under it
+  static constexpr double kBeside = 0.1;    ///< at most: share of the holder's sides that touch it
+  static constexpr double kStands = 0.7;    ///< at most: share of its lower edge that rests on others
+  static constexpr int kEdge = 2;           ///< cells; how far down the holder's upper edge may go
+  static constexpr int kGap = 2;  ///< cells in between at most, without depth or with something far behind
 
   /// Two objects, by number.
   struct Pair {
