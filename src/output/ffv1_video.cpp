@@ -29,18 +29,18 @@ constexpr int kSlices = 4;  // parts of an image that are compressed at the same
 
 struct Ffv1Video::Encoder {
   struct FreeContext {
-    void operator()(AVCodecContext* context) const { avcodec_free_context(&context); }
+    void operator()(AVCodecContext* unused) const { avcodec_free_context(&unused); }
   };
   struct FreeFrame {
-    void operator()(AVFrame* frame) const { av_frame_free(&frame); }
+    void operator()(AVFrame* unused) const { av_frame_free(&unused); }
   };
   struct FreePacket {
-    void operator()(AVPacket* packet) const { av_packet_free(&packet); }
+    void operator()(AVPacket* unused) const { av_packet_free(&unused); }
   };
   struct CloseFormat {
-    void operator()(AVFormatContext* format) const {
-      if (format->pb != nullptr) avio_closep(&format->pb);
-      avformat_free_context(format);
+    void operator()(AVFormatContext* unused) const {
+      if (unused->pb != nullptr) avio_closep(&unused->pb);
+      avformat_free_context(unused);
     }
   };
 
