@@ -21,10 +21,9 @@ namespace saccade {
 class ColourPatches {
  public:
   static constexpr double kLeastArea_mm2 = 250e3;  ///< of a segment that is searched
-  static constexpr float kOtherColour =
-      0.08F;                                ///< distance from its own colour, of cells that may be cut out
-  static constexpr double kOwnShare = 0.3;  ///< of the segment's cells
-  static constexpr int kReach = 2;          ///< cells; some cell of a patch has only its cells so near
+  static constexpr float kOtherColour = 0.08F;     ///< distance from its own colour of what may be cut out
+  static constexpr double kOwnShare = 0.3;         ///< of the segment's cells
+  static constexpr int kReach = 2;                 ///< cells; some cell of a patch has only its cells so near
 
   /// colour: H x W of the grid's frame, BGR; empty = nothing is cut.
   void cut(const SurfaceGrid& grid, const cv::Mat3b& colour, SurfaceSegments& segments);

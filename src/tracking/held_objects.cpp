@@ -100,7 +100,7 @@ void HeldObjects::look_beside(int holder) {
 }
 
 bool HeldObjects::holds(int holder, int held) const {
-  if (held == holder || under_[at(held)] == 0 || under_[at(held)] < kUnder * edge_) return false;
+  if (held == holder || under_[at(held)] < kUnder * edge_) return false;
   const Box &below = boxes_[at(holder)], &above = boxes_[at(held)];
   const float jump = SurfaceGrid::jump_mm(edge_mm_);
   return below.width() <= kNarrower * above.width() && edge_mm_ >= above.nearest_mm - jump &&

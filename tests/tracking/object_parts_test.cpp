@@ -25,14 +25,15 @@ class ObjectPartsTest : public ::testing::Test {
   static cv::Rect place(int k) { return {100 + 40 * k, 80, 40, 80}; }
 
   // The object on the k-th thing.
-  int add(int k, const cv::Vec3b& colour) {
+  int add(int k, const cv::Vec3b& colour) { return add(place(k), colour); }
+
+  int add(const cv::Rect& place, const cv::Vec3b& colour) {
     TrackedObject& object = objects_.add();
     objects_.give_id(object);
     object.sight = Sight::visible;
-    for (int row = place(k).y; row < place(k).br().y; row += 4)
-      for (int col = place(k).x; col < place(k).br().x; col += 4)
-        object.cells.push_back(row / 4 * 80 + col / 4);
-    colour_(place(k)) = colour;
+    for (int row = place.y; row < place.br().y; row += 4)
+      for (int col = place.x; col < place.br().x; col += 4) object.cells.push_back(row / 4 * 80 + col / 4);
+    colour_(place) = colour;
     return object.id;
   }
 
@@ -104,21 +105,13 @@ TEST_F(ObjectPartsTest, WhatIsHeldIsAPartOfItsHolder) {
   depth(pole) = 1000;
   grid_.build(depth, Intrinsics::guess_for(depth.size()));
   segments_.grow(grid_);
-  for (const cv::Rect& place : {shade, pole}) {
-    TrackedObject& object = objects_.add();
-    objects_.give_id(object);
-    object.sight = Sight::visible;
-    for (int row = place.y; row < place.br().y; row += 4)
-      for (int col = place.x; col < place.br().x; col += 4) object.cells.push_back(row / 4 * 80 + col / 4);
-  }
-  colour_(shade) = kGreen;
-  colour_(pole) = kBlack;
+  const int held = add(shade, kGreen), holder = add(pole, kBlack);
   watch(1);
-  EXPECT_EQ(thing_of(2), 1);
+  EXPECT_EQ(thing_of(holder), held);
   colour_.release();
   parts_.clear();
   watch(1);
-  EXPECT_EQ(thing_of(2), 1) << "without colour too";
+  EXPECT_EQ(thing_of(holder), held) << "without colour too";
 }
 
 TEST_F(ObjectPartsTest, AStepInDepthParts) {
