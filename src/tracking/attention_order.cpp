@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "tracking/cell_projection.hpp"
 #include "tracking/object_merging.hpp"
@@ -58,17 +59,28 @@ bool AttentionOrder::has_appeared(int segment, const ObjectShapes& shapes) const
   return facts.appeared >= kAppearedCells && facts.appeared >= kAppearedPart * facts.cells;
 }
 
-// Objects in the order of the frame before; those that were not in it come last.
+// Objects in the order of the frame before; those that were not in it, or were away for long, come last.
 void AttentionOrder::list_expected() {
-  const auto& slots = objects_->slots();
+  auto& slots = objects_->slots();
   expected_.clear();
   next_expected_ = 0;
-  for (std::size_t slot = 0; slot < slots.size(); ++slot)
-    if (slots[slot].alive && slots[slot].id != 0 && slots[slot].sight == Sight::visible)
-      expected_.push_back(slot);
+  for (std::size_t slot = 0; slot < slots.size(); ++slot) {
+    TrackedObject& object = slots[slot];
+    if (!object.alive || object.id == 0 || object.sight != Sight::visible) continue;
+    if (object.member && was_away(object)) {
+      object.member = false;
+      object.rank = std::numeric_limits<int>::max();
+    }
+    expected_.push_back(slot);
+  }
   std::sort(expected_.begin(), expected_.end(), [&](std::size_t a, std::size_t b) {
     return slots[a].rank != slots[b].rank ? slots[a].rank < slots[b].rank : slots[a].id < slots[b].id;
   });
+}
+
+bool AttentionOrder::was_away(const TrackedObject& object) const {
+  const double since_s = static_cast<double>(view_->frame.timestamp_us - object.last_reported_us) * 1e-6;
+  return since_s - view_->seconds > kAway_s;
 }
 
 // The next that has not been chosen and has some value left.
@@ -187,10 +199,10 @@ void AttentionOrder::take(TrackedObject& object, const ProtoObjects& proto_objec
   object.last_reported_us = view_->frame.timestamp_us;
   object.point_cell = settle_anchor(object, proto_objects);
   inhibit(object);
+  object.member = !object.is_part();
   if (object.is_part()) return;
   competition_.discount_around(object.point_cell);
   chosen_.push_back(at(objects_->owner_of(object) - 1));
-  object.member = true;
 }
 
 // Of the margin, the cells that belong to another object's segment are spared: they are its own to lose.
@@ -266,6 +278,7 @@ float AttentionOrder::strength(const TrackedObject& object) const {
 
 // Moves the anchor where it must; gives the cell where the object's point is in this frame.
 int AttentionOrder::settle_anchor(TrackedObject& object, const ProtoObjects& proto_objects) const {
+  if (object.home_mm && (object.from_home_s += view_->seconds) > kAway_s) object.home_mm.reset();
   const Peak best = best_of(object);
   double patience = kPatience_s;
   int other = best.cell;
@@ -284,6 +297,10 @@ int AttentionOrder::settle_anchor(TrackedObject& object, const ProtoObjects& pro
   }
   object.other_anchor_s += view_->seconds;
   if (object.other_anchor_s > patience) {
+    if (object.anchor_sight == AnchorSight::out_of_view && !object.home_mm) {
+      object.home_mm = object.anchor_mm;
+      object.from_home_s = 0;
+    }
     move_anchor(object, other, proto_objects);
     object.anchor_cell = other;
     object.other_anchor_s = 0;

@@ -20,24 +20,26 @@ namespace saccade {
 /// object, or for a candidate. A candidate becomes an object, with an id, when it was chosen in kConfirm
 /// frames.
 ///
-/// The objects of the last frame's order are *members* of it until they are seen and not chosen. While there
-/// are as many members as places, a newcomer must be kEnter times as strong as the weakest of them, each by
-/// the largest value of all its cells, unless it has appeared; it takes that one's place. So what was
-/// reported does not fall out because something that is hardly stronger came into view.
+/// The objects of the last frame's order are *members* of it until they are seen and not chosen, or were away
+/// for more than kAway_s. While there are as many members as places, a newcomer must be kEnter times as
+/// strong as the weakest of them, each by the largest value of all its cells, unless it has appeared; it
+/// takes that one's place. So what was reported does not fall out because something that is hardly stronger
+/// came into view. A part of a thing is no member: another object is reported for it.
 ///
 /// An object is as strong as the cells around its anchor. The anchor moves only if another place of the
 /// object is better by kBetterPlace for kPatience_s, or if its own is hidden or at the object's border for so
-/// long, or out of view.
+/// long, or out of view; one that went out of view and is seen again within kAway_s goes back.
 /// Without memory (the first frame, or after a cut) the order, the cells and the points are those of
 /// ProtoSelector. Keeps its memory between frames. Thread safety: one call at a time per object.
 class AttentionOrder {
  public:
-  static constexpr float kMargin = 2, kBetterPlace = 4;
+  static constexpr float kMargin = 2, kBetterPlace = 16;
   static constexpr float kEnter = 12;    ///< of a newcomer to an order that is full
   static constexpr int kPlaneCells = 3;  ///< of supporting planes, inhibited with an object beside its margin
   static constexpr int kConfirm = 3;
   static constexpr double kPatience_s = 0.5;
-  static constexpr int kPlaceCells = 3;  ///< radius, of the cells around an anchor
+  static constexpr double kAway_s = 0.5;  ///< what comes back later is no member, and its anchor has moved
+  static constexpr int kPlaceCells = 3;   ///< radius, of the cells around an anchor
   static constexpr int kStandInCells =
       6;  ///< radius in which another cell stands in for an anchor that is hidden
 
@@ -74,6 +76,7 @@ class AttentionOrder {
   void begin(const ObjectShapes& shapes);
   bool has_appeared(int segment, const ObjectShapes& shapes) const;
   void list_expected();
+  bool was_away(const TrackedObject& object) const;
   TrackedObject* expected();
   void rank_the_rest();
   TrackedObject* last_to_stay(int count);

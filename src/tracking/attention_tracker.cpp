@@ -85,24 +85,26 @@ void AttentionTracker::attend(const Frame& frame, const cv::Mat1f& saliency, con
   objects_.forget(frame.timestamp_us, memory_.owner());
 }
 
-// The means go over the same time as that of the evidence. What the edge of the image cuts shows less of its
-// border, which is no reason to doubt it.
+// The mean saliency goes over the same time as the evidence; that of the confidence goes over more, since what
+// an object is does not change. What the edge of the image cuts shows less of its border, which is no reason
+// to doubt it.
 void AttentionTracker::judge(const AttentionOrder::View& view, const FrameSurfaces& surfaces,
                              const std::vector<std::size_t>& chosen) {
   // The cell that would win alone, as the saliency of proto is relative to its first. That of the first
   // object is no measure, since its point stays where it is while the map changes.
   const auto winner = std::max_element(memory_.mean().begin(), memory_.mean().end());
   const float strongest = smooth_[static_cast<std::size_t>(winner - memory_.mean().begin())];
-  const auto least = static_cast<float>(SurfaceMemory::share_of(view.seconds));
+  const auto least = static_cast<float>(SurfaceMemory::share_of(view.seconds)),
+             least_sure = static_cast<float>(SurfaceMemory::share_of(view.seconds, kConfidence_s));
   for (const std::size_t slot : chosen) {
     TrackedObject& object = objects_.slots()[slot];
     const float saliency = smooth_[static_cast<std::size_t>(object.point_cell)];
     const float relative = strongest > 0 ? saliency / strongest : 1;
-    const float share = std::max(1 / static_cast<float>(++object.times_judged), least);
-    object.mean_saliency += share * (saliency_of(view, object) - object.mean_saliency);
+    const float share = 1 / static_cast<float>(++object.times_judged);
+    object.mean_saliency += std::max(share, least) * (saliency_of(view, object) - object.mean_saliency);
     const float confidence = surfaces.confidence_at(object.point_cell, relative);
     if (object.times_judged == 1 || confidence > object.mean_confidence || !leaves_view(object, view.grid))
-      object.mean_confidence += share * (confidence - object.mean_confidence);
+      object.mean_confidence += std::max(share, least_sure) * (confidence - object.mean_confidence);
     if (object.times_judged == 1 || std::abs(object.mean_confidence - object.confidence) > kConfidenceMargin)
       object.confidence = confidence_to_report(object);
   }

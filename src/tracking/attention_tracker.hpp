@@ -30,6 +30,7 @@ class AttentionTracker {
   /// reported itself, and how far below the threshold for an object that was reported to be left out. So an
   /// object does not come and go because its confidence is near the limit.
   static constexpr float kConfidenceMargin = 0.1F;
+  static constexpr double kConfidence_s = 2;  ///< time of that mean
 
   /// fixations: the greatest number per frame. min_confidence: 0..1, objects below it are remembered but not
   /// reported. Throws std::invalid_argument unless there is at least one fixation.

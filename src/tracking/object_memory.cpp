@@ -43,6 +43,7 @@ void ObjectMemory::correct(const cv::Affine3d& correction) {
     if (!object.alive || object.sight != Sight::visible) continue;
     object.anchor_mm = correction * object.anchor_mm;
     object.centroid_mm = correction * object.centroid_mm;
+    if (object.home_mm) object.home_mm = correction * *object.home_mm;
     for (cv::Point3d& point : object.surface_mm) point = correction * point;
   }
 }
@@ -51,12 +52,26 @@ void ObjectMemory::predict(const SurfaceGrid& grid, const cv::Affine3d& from_wor
   for (TrackedObject& object : slots_) {
     object.cells.clear();
     object.seen_cells.clear();
-    object.segment = object.anchor_cell = -1;
+    object.segment = -1;
     object.chosen = object.passed_over = false;
     if (!object.alive) continue;
     look_at_surface(grid, from_world, object);
+    go_home(grid, from_world, object);
     look_at_anchor(grid, from_world, object);
   }
+}
+
+// An anchor that is seen again has its place back.
+void ObjectMemory::go_home(const SurfaceGrid& grid, const cv::Affine3d& from_world,
+                           TrackedObject& object) const {
+  if (!object.home_mm) return;
+  const cv::Point3d stand_in = object.anchor_mm;
+  object.anchor_mm = *object.home_mm;
+  look_at_anchor(grid, from_world, object);
+  if (object.anchor_sight == AnchorSight::visible)
+    object.home_mm.reset();
+  else
+    object.anchor_mm = stand_in;
 }
 
 void ObjectMemory::look_at_surface(const SurfaceGrid& grid, const cv::Affine3d& from_world,
@@ -85,6 +100,7 @@ void ObjectMemory::look_at_anchor(const SurfaceGrid& grid, const cv::Affine3d& f
   const cv::Point3d point = from_world * object.anchor_mm;
   const int middle = cell_of(grid, point);
   object.anchor_sight = AnchorSight::out_of_view;
+  object.anchor_cell = -1;
   if (middle < 0) return;
   int nearer = 0, farther = 0, best = 3;  // squared distance in cells
   const int row = middle / grid.cols(), col = middle % grid.cols();

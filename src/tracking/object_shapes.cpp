@@ -94,6 +94,7 @@ void ObjectShapes::follow_moved(ObjectMemory& objects, const cv::Affine3d& to_wo
     if (segment == SurfaceSegments::kNone) continue;
     const cv::Point3d shift = to_world * facts_[at(segment)].centroid_mm - object.centroid_mm;
     object.anchor_mm += shift;
+    object.home_mm.reset();
     object.centroid_mm += shift;
     object.sight = Sight::visible;
     object.frames_empty = 0;

@@ -13,7 +13,7 @@ constexpr double kEdge = 0.5;         // cells; a step is of this cell if it is 
 
 }  // namespace
 
-double SurfaceMemory::share_of(double seconds) { return 1 - std::exp(-seconds / kMean_s); }
+double SurfaceMemory::share_of(double seconds, double mean_s) { return 1 - std::exp(-seconds / mean_s); }
 
 void SurfaceMemory::clear() { empty_ = true; }
 

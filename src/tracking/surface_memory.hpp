@@ -28,8 +28,10 @@ class SurfaceMemory {
     in_front,  ///< a surface before this one: this one was hidden
   };
 
-  /// The least share that a value which comes `seconds` after the one before it has in a mean.
-  static double share_of(double seconds);
+
+  /// The least share that a value which comes `seconds` after the one before it has in a mean over the time
+  /// `mean_s`.
+  static double share_of(double seconds, double mean_s = kMean_s);
 
   /// Forgets all cells.
   void clear();

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include <opencv2/core.hpp>
@@ -30,6 +31,7 @@ struct TrackedObject {
   int thing = 0;  ///< id of the object that is reported for the thing that it is a part of; mostly its own
 
   cv::Point3d anchor_mm;                ///< the point that attention rests on
+  std::optional<cv::Point3d> home_mm;   ///< the anchor that went out of view, for a while
   std::vector<cv::Point3d> surface_mm;  ///< some points of its surface as it was last seen
   cv::Point3d centroid_mm;              ///< mean of all of them
   double area_mm2 = 0;                  ///< of its surface, as the camera saw it
@@ -42,7 +44,7 @@ struct TrackedObject {
   float mean_confidence = 0;
   float mean_saliency = 0;  ///< over time, of the map at its strongest place
   int times_judged = 0;     ///< over how many frames these means go
-  bool member = false;      ///< was in the order when it was last visible
+  bool member = false;      ///< was in the order when it was last visible, and has not been away for long
   bool appeared = false;    ///< came into a place that was seen without it
 
   // How long something has spoken for a change that is made only if it persists
@@ -51,6 +53,7 @@ struct TrackedObject {
   int frames_empty = 0;       ///< in a row
   double other_shape_s = 0;   ///< the segmentation disagrees with its cells
   double other_anchor_s = 0;  ///< another point of it is better, or its own is hidden
+  double from_home_s = 0;     ///< another point stands in for the one that went out of view
 
   // In the present frame
   Sight sight = Sight::hidden;
