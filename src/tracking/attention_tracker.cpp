@@ -85,9 +85,9 @@ void AttentionTracker::attend(const Frame& frame, const cv::Mat1f& saliency, con
   objects_.forget(frame.timestamp_us, memory_.owner());
 }
 
-// The mean saliency goes over the same time as the evidence; that of the confidence goes over more, since what
-// an object is does not change. What the edge of the image cuts shows less of its border, which is no reason
-// to doubt it.
+// The mean saliency goes over the same time as the evidence; that of the confidence goes over more, since
+// what an object is does not change. What the edge of the image cuts shows less of its border, which is no
+// reason to doubt it.
 void AttentionTracker::judge(const AttentionOrder::View& view, const FrameSurfaces& surfaces,
                              const std::vector<std::size_t>& chosen) {
   // The cell that would win alone, as the saliency of proto is relative to its first. That of the first

@@ -28,7 +28,6 @@ class SurfaceMemory {
     in_front,  ///< a surface before this one: this one was hidden
   };
 
-
   /// The least share that a value which comes `seconds` after the one before it has in a mean over the time
   /// `mean_s`.
   static double share_of(double seconds, double mean_s = kMean_s);
