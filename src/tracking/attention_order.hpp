@@ -33,7 +33,7 @@ namespace saccade {
 /// ProtoSelector. Keeps its memory between frames. Thread safety: one call at a time per object.
 class AttentionOrder {
  public:
-  static constexpr float kMargin = 2, kBetterPlace = 16;
+  static constexpr float kMargin = 3, kBetterPlace = 16;
   static constexpr float kEnter = 12;    ///< of a newcomer to an order that is full
   static constexpr int kPlaneCells = 3;  ///< of supporting planes, inhibited with an object beside its margin
   static constexpr int kConfirm = 3;

@@ -389,7 +389,7 @@ TEST_F(AttentionTrackerTest, OrderChangesByAMarginOnly) {
   const int first = attention_.fixations.front().id;
   for (int k = 1; k < 60; ++k)
     EXPECT_EQ(see(k, 0, -0.05F).fixations.front().id, first) << "a little weaker than others";
-  for (int k = 60; k < 150; ++k) see(k, 0, -0.9F / static_cast<float>(scene_->objects()));
+  for (int k = 60; k < 150; ++k) see(k, 0, -0.98F / static_cast<float>(scene_->objects()));
   EXPECT_NE(attention_.fixations.front().id, first) << "much weaker";
 }
 
