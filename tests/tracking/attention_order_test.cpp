@@ -151,6 +151,13 @@ TEST(AttentionOrder, WhatIsReportedStaysUnlessANewcomerIsMuchStronger) {
       << "18 times; the weakest goes";
 }
 
+TEST(AttentionOrder, RanksChangeByAMarginOnly) {
+  FullOrder order;
+  EXPECT_THAT(order.watch({1, 0.9F, 0.8F, 0}, 5), ElementsAre(0, 1, 2));
+  EXPECT_THAT(order.watch({0.35F, 0.9F, 0.8F, 0}, 60), ElementsAre(0, 1, 2)) << "2.6 times";
+  EXPECT_THAT(order.watch({0.2F, 0.9F, 0.8F, 0}, 60), ElementsAre(1, 2, 0)) << "4.5 times";
+}
+
 TEST(AttentionOrder, WhatWasAwayForLongTakesNoPlaceThatIsFilled) {
   for (const int frames_away : {10, 40}) {
     FullOrder order;

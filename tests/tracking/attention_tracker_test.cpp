@@ -383,16 +383,6 @@ TEST_F(AttentionTrackerTest, WithoutEvidenceObjectsAndTheirOrderStay) {
   for (const auto& [label, id] : ids()) EXPECT_EQ(id, before.at(label));
 }
 
-TEST_F(AttentionTrackerTest, OrderChangesByAMarginOnly) {
-  watch({.noise = false}, 3);
-  see(0, 0, 0.1F);
-  const int first = attention_.fixations.front().id;
-  for (int k = 1; k < 60; ++k)
-    EXPECT_EQ(see(k, 0, -0.05F).fixations.front().id, first) << "a little weaker than others";
-  for (int k = 60; k < 150; ++k) see(k, 0, -0.98F / static_cast<float>(scene_->objects()));
-  EXPECT_NE(attention_.fixations.front().id, first) << "much weaker";
-}
-
 // The two sides of a valley are two objects by their shape. Colours: of the left and the right side.
 std::vector<Attention> look_at_valley(const cv::Vec3b& left, const cv::Vec3b& right, int frames) {
   cv::setNumThreads(1);
