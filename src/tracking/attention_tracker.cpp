@@ -75,28 +75,39 @@ void AttentionTracker::attend(const Frame& frame, const cv::Mat1f& saliency, con
   proto_objects_.begin(grid, segments_, frame.depth_mm, frame.intrinsics);
   const AttentionOrder::View view{frame,         saliency,   grid,    segments_,
                                   step.to_world, from_world, seconds, first};
-  const auto& chosen = order_.choose(view, fixations_, shapes_, proto_objects_, objects_, memory_);
+  const int next_id = objects_.next_id();
+  chosen_ = order_.choose(view, fixations_, shapes_, proto_objects_, objects_, memory_);
+  const bool nothing_left = static_cast<int>(chosen_.size()) < fixations_;
+  if (!first && objects_.next_id() != next_id) leave_new_parts_out(frame, grid);
   objects_.learn(grid, step.to_world);
-  judge(view, surfaces, chosen);
-  report(view, chosen, attention);
+  judge(view, surfaces);
+  report(view, attention);
+  if (nothing_left) attention.ended_early = chosen_.empty() ? kNothingSalient : kNothingLeft;
+  if (const auto doubtful = static_cast<int>(chosen_.size() - reported_.size()); doubtful > 0)
+    add_doubtful(doubtful, min_confidence_, attention.ended_early);
 
   attention.sequence = SequenceState{std::nullopt, step.cut, step.to_world};
   look(frame.timestamp_us, reported_, *attention.sequence);
   objects_.forget(frame.timestamp_us, memory_.owner());
 }
 
+// What has just got its id may be a part of something: then it is never reported.
+void AttentionTracker::leave_new_parts_out(const Frame& frame, const SurfaceGrid& grid) {
+  parts_.find(grid, segments_, frame.colour, 0, objects_);
+  std::erase_if(chosen_, [&](std::size_t slot) { return objects_.slots()[slot].is_part(); });
+}
+
 // The mean saliency goes over the same time as the evidence; that of the confidence goes over more, since
 // what an object is does not change. What the edge of the image cuts shows less of its border, which is no
 // reason to doubt it.
-void AttentionTracker::judge(const AttentionOrder::View& view, const FrameSurfaces& surfaces,
-                             const std::vector<std::size_t>& chosen) {
+void AttentionTracker::judge(const AttentionOrder::View& view, const FrameSurfaces& surfaces) {
   // The cell that would win alone, as the saliency of proto is relative to its first. That of the first
   // object is no measure, since its point stays where it is while the map changes.
   const auto winner = std::max_element(memory_.mean().begin(), memory_.mean().end());
   const float strongest = smooth_[static_cast<std::size_t>(winner - memory_.mean().begin())];
   const auto least = static_cast<float>(SurfaceMemory::share_of(view.seconds)),
              least_sure = static_cast<float>(SurfaceMemory::share_of(view.seconds, kConfidence_s));
-  for (const std::size_t slot : chosen) {
+  for (const std::size_t slot : chosen_) {
     TrackedObject& object = objects_.slots()[slot];
     const float saliency = smooth_[static_cast<std::size_t>(object.point_cell)];
     const float relative = strongest > 0 ? saliency / strongest : 1;
@@ -129,11 +140,10 @@ float AttentionTracker::saliency_of(const AttentionOrder::View& view, const Trac
   return view.saliency(proto_objects_.fixated_pixel(view.saliency, strongest));
 }
 
-void AttentionTracker::report(const AttentionOrder::View& view, const std::vector<std::size_t>& chosen,
-                              Attention& attention) {
+void AttentionTracker::report(const AttentionOrder::View& view, Attention& attention) {
   const Frame& frame = view.frame;
   reported_.clear();
-  for (const std::size_t slot : chosen) {
+  for (const std::size_t slot : chosen_) {
     const TrackedObject& object = objects_.slots()[slot];
     if (object.confidence < static_cast<float>(min_confidence_)) continue;
     reported_.push_back(slot);
@@ -148,10 +158,6 @@ void AttentionTracker::report(const AttentionOrder::View& view, const std::vecto
     fixation.world_mm = view.to_world * cv::Point3d(fixation.position_mm);
     attention.fixations.push_back(fixation);
   }
-  if (static_cast<int>(chosen.size()) < fixations_)
-    attention.ended_early = chosen.empty() ? kNothingSalient : kNothingLeft;
-  if (const auto doubtful = static_cast<int>(chosen.size() - reported_.size()); doubtful > 0)
-    add_doubtful(doubtful, min_confidence_, attention.ended_early);
 }
 
 // The cells of an object and of all parts of the thing that it is reported for.

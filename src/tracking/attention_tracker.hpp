@@ -61,11 +61,11 @@ class AttentionTracker {
   const ObjectMemory& objects() const { return objects_; }
 
  private:
-  void judge(const AttentionOrder::View& view, const FrameSurfaces& surfaces,
-             const std::vector<std::size_t>& chosen);
+  void leave_new_parts_out(const Frame& frame, const SurfaceGrid& grid);
+  void judge(const AttentionOrder::View& view, const FrameSurfaces& surfaces);
   float confidence_to_report(const TrackedObject& object) const;
   float saliency_of(const AttentionOrder::View& view, const TrackedObject& object) const;
-  void report(const AttentionOrder::View& view, const std::vector<std::size_t>& chosen, Attention& attention);
+  void report(const AttentionOrder::View& view, Attention& attention);
   const std::vector<int>& cells_of_thing(const TrackedObject& object);
   cv::Point point_of(const AttentionOrder::View& view, const TrackedObject& object) const;
   void look(std::int64_t time_us, const std::vector<std::size_t>& chosen, SequenceState& sequence);
@@ -85,7 +85,7 @@ class AttentionTracker {
   ProtoObjects proto_objects_;
   AttentionOrder order_;
   Gaze gaze_;
-  std::vector<std::size_t> reported_;  // slots, in order
+  std::vector<std::size_t> chosen_, reported_;  // slots, in order
   std::vector<Gaze::Target> targets_;
 };
 

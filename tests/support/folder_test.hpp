@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <string>
 
@@ -24,8 +25,10 @@ class FolderTest : public ::testing::Test {
 
   const std::filesystem::path folder_ = [] {
     const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
-    return std::filesystem::path(::testing::TempDir()) /
-           ("saccade_" + std::to_string(::getpid()) + "_" + test->test_suite_name() + "_" + test->name());
+    std::string name =
+        "saccade_" + std::to_string(::getpid()) + "_" + test->test_suite_name() + "_" + test->name();
+    std::replace(name.begin(), name.end(), '/', '_');  // in the names of tests with parameters
+    return std::filesystem::path(::testing::TempDir()) / name;
   }();
 };
 

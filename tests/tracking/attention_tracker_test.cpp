@@ -383,21 +383,26 @@ TEST_F(AttentionTrackerTest, WithoutEvidenceObjectsAndTheirOrderStay) {
   for (const auto& [label, id] : ids()) EXPECT_EQ(id, before.at(label));
 }
 
-// The two sides of a valley are two objects by their shape. Colours: of the left and the right side.
-std::vector<Attention> look_at_valley(const cv::Vec3b& left, const cv::Vec3b& right, int frames) {
+// The two sides of a valley are two objects by their shape. Colours: of the left and the right side. The
+// right side is salient from frame `both_from` on.
+std::vector<Attention> look_at_valley(const cv::Vec3b& left, const cv::Vec3b& right, int frames,
+                                      int both_from = 0) {
   cv::setNumThreads(1);
   const cv::Rect thing(120, 80, 80, 80);
   Frame frame;
   frame.depth_mm = cv::Mat1f(240, 320, 3000.0F);
   frame.colour = cv::Mat3b(240, 320, cv::Vec3b(128, 128, 128));
   frame.intrinsics = Intrinsics::guess_for(frame.size());
-  cv::Mat1f map(240, 320, 0.0F);
+  cv::Mat1f left_map(240, 320, 0.0F), map(240, 320, 0.0F);
   for (int r = thing.y; r < thing.br().y; ++r)
     for (int c = thing.x; c < thing.br().x; ++c) {
       frame.depth_mm(r, c) = static_cast<float>(1000 - 1.5 * std::abs(c - 160));
       frame.colour(r, c) = c < 160 ? left : right;
-      for (const int middle : {135, 185})
-        map(r, c) += std::max(0.0F, 1 - 0.125F * static_cast<float>(std::hypot(r - 120, c - middle)));
+      const auto hill = [&](int middle) {
+        return std::max(0.0F, 1 - 0.125F * static_cast<float>(std::hypot(r - 120, c - middle)));
+      };
+      left_map(r, c) = hill(135);
+      map(r, c) = hill(135) + hill(185);
     }
   FrameFollower follower;
   AttentionTracker tracker(10, 0, {});
@@ -405,7 +410,8 @@ std::vector<Attention> look_at_valley(const cv::Vec3b& left, const cv::Vec3b& ri
   for (Attention& attention : all) {
     follower.start(frame);
     follower.wait();
-    tracker.attend(frame, map, follower.surfaces(), follower.step(), attention);
+    tracker.attend(frame, frame.index < both_from ? left_map : map, follower.surfaces(), follower.step(),
+                   attention);
     ++frame.index;
     frame.timestamp_us += 33'000;
   }
@@ -425,6 +431,13 @@ TEST(AttentionTracker, PartsOfOneThingHaveOneFixationAndOneMask) {
 TEST(AttentionTracker, AnotherColourIsAnotherFixation) {
   for (const Attention& attention : look_at_valley({60, 90, 130}, {60, 140, 60}, 5))
     EXPECT_EQ(attention.fixations.size(), 2U);
+}
+
+TEST(AttentionTracker, WhatIsFoundToBeAPartIsNeverReported) {
+  const cv::Vec3b brown(60, 90, 130), green(60, 140, 60);
+  for (const Attention& attention : look_at_valley(brown, brown, 20, 3))
+    EXPECT_EQ(attention.fixations.size(), 1U);
+  EXPECT_EQ(look_at_valley(brown, green, 20, 3).back().fixations.size(), 2U);
 }
 
 // A board that is large and of one colour, with a patch of another colour on it that has no edge in depth.
