@@ -79,8 +79,7 @@ void AttentionOrder::list_expected() {
 }
 
 bool AttentionOrder::was_away(const TrackedObject& object) const {
-  const double since_s = static_cast<double>(view_->frame.timestamp_us - object.last_reported_us) * 1e-6;
-  return since_s - view_->seconds > kAway_s;
+  return object.unreported_s(view_->frame.timestamp_us) - view_->seconds > kAway_s;
 }
 
 // The next that has not been chosen and has some value left.

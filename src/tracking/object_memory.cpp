@@ -56,22 +56,23 @@ void ObjectMemory::predict(const SurfaceGrid& grid, const cv::Affine3d& from_wor
     object.chosen = object.passed_over = false;
     if (!object.alive) continue;
     look_at_surface(grid, from_world, object);
-    go_home(grid, from_world, object);
-    look_at_anchor(grid, from_world, object);
+    if (!goes_home(grid, from_world, object)) look_at_anchor(grid, from_world, object);
   }
 }
 
 // An anchor that is seen again has its place back.
-void ObjectMemory::go_home(const SurfaceGrid& grid, const cv::Affine3d& from_world,
-                           TrackedObject& object) const {
-  if (!object.home_mm) return;
+bool ObjectMemory::goes_home(const SurfaceGrid& grid, const cv::Affine3d& from_world,
+                             TrackedObject& object) const {
+  if (!object.home_mm) return false;
   const cv::Point3d stand_in = object.anchor_mm;
   object.anchor_mm = *object.home_mm;
   look_at_anchor(grid, from_world, object);
-  if (object.anchor_sight == AnchorSight::visible)
+  const bool seen = object.anchor_sight == AnchorSight::visible;
+  if (seen)
     object.home_mm.reset();
   else
     object.anchor_mm = stand_in;
+  return seen;
 }
 
 void ObjectMemory::look_at_surface(const SurfaceGrid& grid, const cv::Affine3d& from_world,
@@ -147,7 +148,7 @@ bool ObjectMemory::candidate_stays(TrackedObject& candidate) {
 }
 
 bool ObjectMemory::is_remembered(const TrackedObject& object, std::int64_t time_us) const {
-  return static_cast<double>(time_us - object.last_reported_us) * 1e-6 <= memory_s_;
+  return object.unreported_s(time_us) <= memory_s_;
 }
 
 void ObjectMemory::forget(std::int64_t time_us, std::vector<int>& owner) {

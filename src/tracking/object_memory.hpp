@@ -68,7 +68,7 @@ class ObjectMemory {
 
  private:
   void look_at_surface(const SurfaceGrid& grid, const cv::Affine3d& from_world, TrackedObject& object) const;
-  void go_home(const SurfaceGrid& grid, const cv::Affine3d& from_world, TrackedObject& object) const;
+  bool goes_home(const SurfaceGrid& grid, const cv::Affine3d& from_world, TrackedObject& object) const;
   void look_at_anchor(const SurfaceGrid& grid, const cv::Affine3d& from_world, TrackedObject& object) const;
   static bool candidate_stays(TrackedObject& candidate);
   bool is_remembered(const TrackedObject& object, std::int64_t time_us) const;

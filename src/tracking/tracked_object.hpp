@@ -71,6 +71,11 @@ struct TrackedObject {
   /// Another object is reported for it.
   bool is_part() const { return thing != id; }
 
+  /// How long ago it was last reported, itself or as a part.
+  double unreported_s(std::int64_t time_us) const {
+    return static_cast<double>(time_us - last_reported_us) * 1e-6;
+  }
+
   /// The side of a square of its area.
   double size_mm() const { return std::sqrt(area_mm2); }
 };

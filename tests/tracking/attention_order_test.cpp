@@ -7,6 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "followed_frames.hpp"
 #include "tracking/attention_tracker.hpp"
 #include "tracking/frame_follower.hpp"
 
@@ -109,7 +110,6 @@ TEST(AttentionOrder, AnAnchorThatWasOutOfViewForAMomentIsWhereItWas) {
 class FullOrder {
  public:
   FullOrder() {
-    cv::setNumThreads(1);
     frame_.depth_mm = cv::Mat1f(240, 320, 3000.0F);
     for (int k = 0; k < 4; ++k) set_depth(k, 1500);
     frame_.intrinsics = Intrinsics::guess_for(frame_.size());
@@ -122,15 +122,9 @@ class FullOrder {
   std::vector<int> watch(const std::vector<float>& saliency, int frames) {
     cv::Mat1f map(240, 320, 0.0F);
     for (int k = 0; k < 4; ++k) map(place(k)) = saliency[static_cast<std::size_t>(k)];
-    for (int i = 0; i < frames; ++i) {
-      follower_.start(frame_);
-      follower_.wait();
-      tracker_.attend(frame_, map, follower_.surfaces(), follower_.step(), attention_);
-      ++frame_.index;
-      frame_.timestamp_us += 33'000;
-    }
+    for (int i = 1; i < frames; ++i) frames_.attend(frame_, map);
     std::vector<int> fixated;
-    for (const Fixation& fixation : attention_.fixations)
+    for (const Fixation& fixation : frames_.attend(frame_, map).fixations)
       for (int k = 0; k < 4; ++k)
         if (place(k).contains({fixation.col, fixation.row})) fixated.push_back(k);
     return fixated;
@@ -138,9 +132,7 @@ class FullOrder {
 
  private:
   Frame frame_;
-  FrameFollower follower_;
-  AttentionTracker tracker_{3, 0, {}};
-  Attention attention_;
+  FollowedFrames frames_{3};
 };
 
 TEST(AttentionOrder, WhatIsReportedStaysUnlessANewcomerIsMuchStronger) {
@@ -172,7 +164,6 @@ TEST(AttentionOrder, WhatWasAwayForLongTakesNoPlaceThatIsFilled) {
 
 // A hill on the table top, `gap` pixels beside a block that stands on it.
 int fixations_beside_a_block(int gap, int frames) {
-  cv::setNumThreads(1);
   const cv::Rect block(120, 100, 40, 40);
   Frame frame;
   frame.depth_mm = cv::Mat1f(240, 320, 1000.0F);
@@ -181,18 +172,10 @@ int fixations_beside_a_block(int gap, int frames) {
   cv::Mat1f map(240, 320, 0.0F);
   map(block) = 1;
   map(cv::Rect(block.br().x + gap, 116, 8, 8)) = 0.5F;
-  FrameFollower follower;
-  AttentionTracker tracker(10, 0, {});
-  Attention attention;
-  for (int k = 0; k < frames; ++k) {
-    follower.start(frame);
-    follower.wait();
-    tracker.attend(frame, map, follower.surfaces(), follower.step(), attention);
-    ++frame.index;
-    frame.timestamp_us += 33'000;
-  }
+  FollowedFrames followed;
+  for (int k = 1; k < frames; ++k) followed.attend(frame, map);
   int beside = 0;
-  for (const Fixation& fixation : attention.fixations)
+  for (const Fixation& fixation : followed.attend(frame, map).fixations)
     beside +=
         fixation.row > 100 && fixation.row < 140 && fixation.col >= block.br().x + 4 && fixation.col < 260;
   return beside;

@@ -13,6 +13,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "attention/proto.hpp"
+#include "followed_frames.hpp"
 #include "tracking/frame_follower.hpp"
 #include "watched_scene.hpp"
 
@@ -387,7 +388,6 @@ TEST_F(AttentionTrackerTest, WithoutEvidenceObjectsAndTheirOrderStay) {
 // right side is salient from frame `both_from` on.
 std::vector<Attention> look_at_valley(const cv::Vec3b& left, const cv::Vec3b& right, int frames,
                                       int both_from = 0) {
-  cv::setNumThreads(1);
   const cv::Rect thing(120, 80, 80, 80);
   Frame frame;
   frame.depth_mm = cv::Mat1f(240, 320, 3000.0F);
@@ -404,16 +404,11 @@ std::vector<Attention> look_at_valley(const cv::Vec3b& left, const cv::Vec3b& ri
       left_map(r, c) = hill(135);
       map(r, c) = hill(135) + hill(185);
     }
-  FrameFollower follower;
-  AttentionTracker tracker(10, 0, {});
-  std::vector<Attention> all(static_cast<std::size_t>(frames));
-  for (Attention& attention : all) {
-    follower.start(frame);
-    follower.wait();
-    tracker.attend(frame, frame.index < both_from ? left_map : map, follower.surfaces(), follower.step(),
-                   attention);
-    ++frame.index;
-    frame.timestamp_us += 33'000;
+  FollowedFrames followed;
+  std::vector<Attention> all;
+  for (int k = 0; k < frames; ++k) {
+    all.push_back(followed.attend(frame, k < both_from ? left_map : map));
+    all.back().masks = all.back().masks.clone();
   }
   return all;
 }
@@ -442,7 +437,6 @@ TEST(AttentionTracker, WhatIsFoundToBeAPartIsNeverReported) {
 
 // A board that is large and of one colour, with a patch of another colour on it that has no edge in depth.
 TEST(AttentionTracker, WhatOnlyColourShowsHasItsOwnFixation) {
-  cv::setNumThreads(1);
   const cv::Rect board(100, 80, 120, 72), patch(164, 92, 40, 40);
   Frame frame;
   frame.depth_mm = cv::Mat1f(240, 320, 3000.0F);
@@ -456,19 +450,10 @@ TEST(AttentionTracker, WhatOnlyColourShowsHasItsOwnFixation) {
     for (int c = board.x; c < board.br().x; ++c)
       for (const int middle : {120, 184})
         map(r, c) += std::max(0.0F, 1 - 0.1F * static_cast<float>(std::hypot(r - 112, c - middle)));
-  FrameFollower follower;
-  AttentionTracker tracker(10, 0, {});
-  Attention attention;
-  for (int k = 0; k < 5; ++k) {
-    follower.start(frame);
-    follower.wait();
-    tracker.attend(frame, map, follower.surfaces(), follower.step(), attention);
-    if (k == 0) {
-      ASSERT_EQ(attention.fixations.size(), 1U) << "as in a single frame";
-    }
-    ++frame.index;
-    frame.timestamp_us += 33'000;
-  }
+  FollowedFrames followed;
+  ASSERT_EQ(followed.attend(frame, map).fixations.size(), 1U) << "as in a single frame";
+  for (int k = 2; k < 5; ++k) followed.attend(frame, map);
+  const Attention& attention = followed.attend(frame, map);
   ASSERT_EQ(attention.fixations.size(), 2U);
   for (const Fixation& fixation : attention.fixations) {
     const bool on_patch = patch.contains({fixation.col, fixation.row});
