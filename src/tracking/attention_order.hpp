@@ -28,8 +28,8 @@ namespace saccade {
 ///
 /// An object is as strong as the cells around its anchor. The anchor moves only if another place of the
 /// object is better by kBetterPlace for kPatience_s, or if its own is hidden for so long, at the object's
-/// border for kBorder_s, or out of view; one that went out of view and is seen again within kAway_s goes back.
-/// Without memory (the first frame, or after a cut) the order, the cells and the points are those of
+/// border for kBorder_s, or out of view; one that went out of view and is seen again within kAway_s goes
+/// back. Without memory (the first frame, or after a cut) the order, the cells and the points are those of
 /// ProtoSelector. Keeps its memory between frames. Thread safety: one call at a time per object.
 class AttentionOrder {
  public:
