@@ -282,10 +282,7 @@ int AttentionOrder::settle_anchor(TrackedObject& object, const ProtoObjects& pro
   double patience = kPatience_s;
   int other = best.cell;
   if (object.anchor_sight == AnchorSight::visible) {
-    if (best.value <= kBetterPlace * object.strength) {
-      other = cell_inside(object);
-      patience = kBorder_s;
-    }
+    if (best.value <= kBetterPlace * object.strength) other = cell_inside(object);
     if (other == object.anchor_cell) {
       object.other_anchor_s = 0;
       return object.anchor_cell;

@@ -27,9 +27,9 @@ namespace saccade {
 /// came into view. A part of a thing is no member: another object is reported for it.
 ///
 /// An object is as strong as the cells around its anchor. The anchor moves only if another place of the
-/// object is better by kBetterPlace for kPatience_s, or if its own is hidden for so long, at the object's
-/// border for kBorder_s, or out of view; one that went out of view and is seen again within kAway_s goes
-/// back. Without memory (the first frame, or after a cut) the order, the cells and the points are those of
+/// object is better by kBetterPlace for kPatience_s, or if its own is hidden or at the object's border for so
+/// long, or out of view; one that went out of view and is seen again within kAway_s goes back.
+/// Without memory (the first frame, or after a cut) the order, the cells and the points are those of
 /// ProtoSelector. Keeps its memory between frames. Thread safety: one call at a time per object.
 class AttentionOrder {
  public:
@@ -37,7 +37,7 @@ class AttentionOrder {
   static constexpr float kEnter = 12;    ///< of a newcomer to an order that is full
   static constexpr int kPlaneCells = 3;  ///< of supporting planes, inhibited with an object beside its margin
   static constexpr int kConfirm = 3;
-  static constexpr double kPatience_s = 0.5, kBorder_s = 0.2;
+  static constexpr double kPatience_s = 0.5;
   static constexpr double kAway_s = 0.5;  ///< what comes back later is no member, and its anchor has moved
   static constexpr int kPlaceCells = 3;   ///< radius, of the cells around an anchor
   static constexpr int kStandInCells =
