@@ -276,7 +276,7 @@ TEST_F(WrongInputs, TooLittleMemoryIsAnErrorAtEveryLimit) {
   for (const char* command :
        {"run d --levels 0..2 --quiet --intrinsics 131,131,80,60 --out o",
         "run 'synthetic:room?frames=2' --quiet --out o", "run a.oni --model combined --quiet --out o"}) {
-    for (int limit_mb = 120; limit_mb <= 1200; limit_mb += limit_mb < 460 ? 20 : 200) {
+    for (int limit_mb = 120; limit_mb <= 1200; limit_mb += limit_mb < 460 ? 10 : 200) {
       const ProgramResult outcome = shell(fmt::format("ulimit -v {}; $P {}", limit_mb * 1024, command));
       if (outcome.status == 127) continue;  // the system's loader had too little
       SCOPED_TRACE(fmt::format("{} MB: {}", limit_mb, command));
