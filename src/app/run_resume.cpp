@@ -8,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "core/file.hpp"
+#include "core/frame.hpp"
 #include "core/line_reader.hpp"
 #include "output/json_text.hpp"
 
@@ -16,7 +17,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::uintmax_t kLargestManifest = 1u << 30;
-constexpr std::int64_t kMostFrames = 1'000'000'000'000'000;
 constexpr const char* kOther = "choose another --out, or leave out --resume to begin again";
 
 Error damaged(const fs::path& path) {
@@ -57,7 +57,7 @@ void check_same_run(const nlohmann::json& earlier, const nlohmann::json& present
 std::int64_t frame_of(const nlohmann::json& json, const fs::path& path) {
   if (!json.is_object() || !json.contains("frame")) throw damaged(path);
   const nlohmann::json& frame = json["frame"];
-  if (!frame.is_number_integer() || frame < 0 || frame > kMostFrames) throw damaged(path);
+  if (!frame.is_number_integer() || frame < 0 || frame > kLastFrameIndex) throw damaged(path);
   return frame.get<std::int64_t>();
 }
 

@@ -39,7 +39,7 @@ void ProtoObjects::set_rays(const Intrinsics& camera) {
 const std::vector<int>& ProtoObjects::around(int cell) {
   const int cols = grid_->cols(), row = cell / cols, col = cell % cols,
             segment = segments_->of_cell()[at(cell)];
-  const bool whole = segment != SurfaceSegments::kNone && !segments_->is_supporting_plane(segment);
+  const bool whole = segments_->is_of_thing(segment);
   cells_.clear();
   for (const int i : cells_of_segments_.of(segment)) {
     const int down = i / cols - row, right = i % cols - col;

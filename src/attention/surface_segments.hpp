@@ -30,6 +30,8 @@ class SurfaceSegments {
   bool is_supporting_plane(int segment) const {
     return segments_[static_cast<std::size_t>(segment)].supporting_plane;
   }
+  /// Whether it is the surface of a thing: neither kNone nor a supporting plane.
+  bool is_of_thing(int segment) const { return segment != kNone && !is_supporting_plane(segment); }
 
   /// Makes a segment of `cells`, which belong to segments now; for what depth does not show.
   void cut(const std::vector<int>& cells);

@@ -11,6 +11,9 @@
 
 namespace saccade {
 
+/// Largest index of a frame that files may name; a double holds it exactly.
+constexpr std::int64_t kLastFrameIndex = 1'000'000'000'000'000;
+
 /// The truth about a scene, which synthetic scenes and labelled data sets know and sensors do not.
 struct GroundTruth {
   cv::Mat1w labels;   ///< H x W, 0 = no object, 1.. = instance; empty = unknown

@@ -10,6 +10,7 @@
 
 #include "core/error.hpp"
 #include "core/file.hpp"
+#include "core/frame.hpp"
 #include "core/image_size.hpp"
 #include "core/line_reader.hpp"
 #include "eval/hit_ratio.hpp"
@@ -21,7 +22,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double kMostFrames = 1e15;  // of a source, so that doubles hold them exactly
 constexpr int kMostLabel = 65535;
 
 Json condition_json(const ConditionResult& condition) {
@@ -80,7 +80,7 @@ std::vector<double> ratios_from(const Json& json, std::string_view what) {
 
 ImageResult image_from(const Json& json, const EvalPlan& plan) {
   ImageResult image;
-  image.frame = integer_from(json.at("frame"), 0, kMostFrames, "frame");
+  image.frame = integer_from(json.at("frame"), 0, kLastFrameIndex, "frame");
   image.name = json.at("name");
   if (json.contains("left_out")) {
     image.left_out = json.at("left_out").get<std::string>();

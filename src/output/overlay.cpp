@@ -83,13 +83,21 @@ void draw_path(cv::Mat3b& picture, const std::vector<Fixation>& fixations) {
              is_doubtful(fixations[i]) ? kFaintMark : kMark, line, cv::LINE_AA);
 }
 
+// The centre of a mark that is whole inside the picture, so that its number can be read.
+cv::Point mark_centre(const cv::Mat3b& picture, const Fixation& fixation, int reach) {
+  const auto inside = [&](int place, int length) {
+    return length > 2 * reach ? std::clamp(place, reach, length - 1 - reach) : place;
+  };
+  return {inside(fixation.col, picture.cols), inside(fixation.row, picture.rows)};
+}
+
 // Numbered by rank or, over time, by id; with a ring around the object that is looked at.
 void draw_marks(cv::Mat3b& picture, const Attention& attention) {
   const std::vector<Fixation>& fixations = attention.fixations;
   const double size = mark_size(picture);
   const int radius = cvRound(11 * size), line = std::max(1, cvRound(size));
   for (std::size_t i = fixations.size(); i-- > 0;) {  // the first on top
-    const cv::Point centre(fixations[i].col, fixations[i].row);
+    const cv::Point centre = mark_centre(picture, fixations[i], radius + line);
     const cv::Scalar colour = mark_colour(attention, i);
     cv::circle(picture, centre, radius, kShadow, cv::FILLED, cv::LINE_AA);
     cv::circle(picture, centre, radius, colour, line, cv::LINE_AA);

@@ -14,6 +14,7 @@
 #include "core/depth_units.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
+#include "core/frame.hpp"
 #include "core/text.hpp"
 #include "sources/folder_files.hpp"
 
@@ -85,7 +86,7 @@ std::map<std::int64_t, cv::Affine3d> read_trajectory(const fs::path& file) {
   std::map<std::int64_t, cv::Affine3d> poses;
   for (std::size_t i = 0; i < numbers.size(); i += kOfFrame) {
     const auto pose = pose_of(&numbers[i + 3]);
-    if (pose && numbers[i] >= 0 && numbers[i] < 1e15)
+    if (pose && numbers[i] >= 0 && numbers[i] <= kLastFrameIndex)
       poses.emplace(static_cast<std::int64_t>(numbers[i]), *pose);
   }
   return poses;

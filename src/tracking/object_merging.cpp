@@ -14,8 +14,7 @@ constexpr float kGap = 0.25F;  // of a jump; more is farther than the line
 bool is_placed(const TrackedObject& object, const SurfaceSegments& segments) {
   if (!object.alive || object.id == 0 || object.sight != Sight::visible || object.anchor_cell < 0)
     return false;
-  const int segment = segments.of_cell()[at(object.anchor_cell)];
-  return segment != SurfaceSegments::kNone && !segments.is_supporting_plane(segment);
+  return segments.is_of_thing(segments.of_cell()[at(object.anchor_cell)]);
 }
 
 }  // namespace

@@ -36,10 +36,6 @@ void ObjectShapes::claim(const SurfaceGrid& grid, const SurfaceSegments& segment
   collect_cells(objects, surfaces);
 }
 
-bool ObjectShapes::is_whole(int segment) const {
-  return segment != SurfaceSegments::kNone && !segments_->is_supporting_plane(segment);
-}
-
 // Only a visible object has cells.
 void ObjectShapes::collect_cells(ObjectMemory& objects, SurfaceMemory& surfaces) {
   for (TrackedObject& object : objects.slots()) object.cells.clear();
@@ -114,7 +110,7 @@ int ObjectShapes::segment_moved_to(const TrackedObject& object, const cv::Affine
   double nearest = object.size_mm();
   for (int segment = 0; segment < segments_->count(); ++segment) {
     const Segment& facts = facts_[at(segment)];
-    if (!is_whole(segment) || facts.appeared < kJustAppeared * facts.cells ||
+    if (!segments_->is_of_thing(segment) || facts.appeared < kJustAppeared * facts.cells ||
         facts.owned > kOthers * facts.cells || facts.area_mm2 < kLeastArea * object.area_mm2 ||
         facts.area_mm2 > kMostArea * object.area_mm2)
       continue;
@@ -179,7 +175,7 @@ int ObjectShapes::choose_segment(TrackedObject& object, double seconds) {
   else if (const auto most = std::max_element(overlap_.begin(), overlap_.end());
            most != overlap_.end() && *most > 0)
     segment = static_cast<int>(most - overlap_.begin());
-  const bool whole = is_whole(segment);
+  const bool whole = segments_->is_of_thing(segment);
   const int shared = segment == SurfaceSegments::kNone ? 0 : overlap_[at(segment)];
   const int all = (whole ? facts_[at(segment)].cells : 0) + static_cast<int>(object.cells.size()) - shared;
   const bool same = whole && shared >= kSameShape * all;
@@ -213,7 +209,7 @@ void ObjectShapes::take_segments(ObjectMemory& objects, SurfaceMemory& surfaces)
 // What nobody owns of a segment that several claim goes to the nearest anchor in it.
 void ObjectShapes::divide_segments(ObjectMemory& objects, SurfaceMemory& surfaces) {
   const auto divided = [&](int segment) {
-    return is_whole(segment) && facts_[at(segment)].claims > 1 && !facts_[at(segment)].taken;
+    return segments_->is_of_thing(segment) && facts_[at(segment)].claims > 1 && !facts_[at(segment)].taken;
   };
   for (int i = 0; i < static_cast<int>(grid_->size()); ++i) {
     const int segment = segment_of(i);

@@ -65,7 +65,6 @@ class ObjectShapes {
   void keep_anchors(ObjectMemory& objects, SurfaceMemory& surfaces);
   void keep_anchor(TrackedObject& object, int owner, SurfaceMemory& surfaces) const;
   int segment_of(int cell) const { return (*of_cell_)[static_cast<std::size_t>(cell)]; }
-  bool is_whole(int segment) const;
   void count_overlaps(const std::vector<int>& cells);
 
   const SurfaceGrid* grid_ = nullptr;          // of the present call

@@ -1,6 +1,7 @@
 #include "output/overlay.hpp"
 
 #include <cmath>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -148,6 +149,18 @@ TEST_F(OverlayTest, PaletteBackgroundAndPathAreChoices) {
   EXPECT_EQ(picture(100, 10), depth_picture(frame_.depth_mm)(100, 10));
   EXPECT_EQ(picture(40, 80), picture(100, 10)) << "no path between the marks";
   EXPECT_NE(draw_overlay(frame_, saliency_, attention_)(40, 80), cv::Vec3b(40, 50, 60)) << "the path";
+}
+
+TEST_F(OverlayTest, MarksAtTheEdgeOfTheImageAreWhole) {
+  const auto marked = [&](int row, int col) {
+    attention_.fixations[0].row = row;
+    attention_.fixations[0].col = col;
+    const cv::Mat3b picture = draw_overlay(frame_, saliency_, attention_, {.outlines = false});
+    return cv::norm(picture, frame_.colour, cv::NORM_L1);
+  };
+  const double whole = marked(60, 80);
+  for (const auto& [row, col] : {std::pair(0, 0), {0, 80}, {119, 159}, {60, 159}, {119, 3}})
+    EXPECT_EQ(marked(row, col), whole) << row << ' ' << col;
 }
 
 TEST_F(OverlayTest, ADoubtfulFixationIsGreyWithItsOutline) {
