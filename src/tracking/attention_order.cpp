@@ -54,7 +54,7 @@ void AttentionOrder::begin(const ObjectShapes& shapes) {
 }
 
 bool AttentionOrder::has_appeared(int segment, const ObjectShapes& shapes) const {
-  if (segment == SurfaceSegments::kNone || view_->segments.is_supporting_plane(segment)) return false;
+  if (!view_->segments.is_of_thing(segment)) return false;
   const ObjectShapes::Segment& facts = shapes.segment(segment);
   return facts.appeared >= kAppearedCells && facts.appeared >= kAppearedPart * facts.cells;
 }
@@ -137,8 +137,7 @@ void AttentionOrder::rank_the_rest() {
 TrackedObject& AttentionOrder::stands_for(int cell, const ObjectShapes& shapes, ProtoObjects& proto_objects) {
   if (TrackedObject* owner = objects_->of_owner(surfaces_->owner()[at(cell)])) return *owner;
   const int segment = view_->segments.of_cell()[at(cell)];
-  const bool whole = segment != SurfaceSegments::kNone && !view_->segments.is_supporting_plane(segment);
-  const int slot = whole ? slot_of(segment, cell, shapes) : -1;
+  const int slot = view_->segments.is_of_thing(segment) ? slot_of(segment, cell, shapes) : -1;
   if (slot < 0) return new_candidate(cell, shapes, proto_objects);
   TrackedObject& object = objects_->slots()[at(slot)];
   for (int other : proto_objects.around(cell)) {
@@ -166,7 +165,7 @@ TrackedObject& AttentionOrder::new_candidate(int cell, const ObjectShapes& shape
                                              ProtoObjects& proto_objects) {
   TrackedObject& object = objects_->add();
   const int owner = objects_->owner_of(object), segment = view_->segments.of_cell()[at(cell)];
-  object.disc = segment == SurfaceSegments::kNone || view_->segments.is_supporting_plane(segment);
+  object.disc = !view_->segments.is_of_thing(segment);
   object.appeared = has_appeared(segment, shapes);
   object.sight = Sight::visible;
   object.first_seen_us = view_->frame.timestamp_us;
@@ -183,9 +182,10 @@ TrackedObject& AttentionOrder::new_candidate(int cell, const ObjectShapes& shape
 }
 
 bool AttentionOrder::confirm(TrackedObject& object) {
+  if (!object.is_part()) ++object.times_chosen;
   if (object.id != 0) return true;
   object.chosen = true;
-  if (++object.times_chosen < kConfirm && !view_->first) return false;
+  if (object.times_chosen < kConfirm && !view_->first) return false;
   objects_->give_id(object);
   object.thing = object.id;
   return true;
@@ -282,7 +282,13 @@ int AttentionOrder::settle_anchor(TrackedObject& object, const ProtoObjects& pro
   double patience = kPatience_s;
   int other = best.cell;
   if (object.anchor_sight == AnchorSight::visible) {
-    if (best.value <= kBetterPlace * object.strength) other = cell_inside(object);
+    const int inside = cell_inside(object);
+    object.at_border_s =
+        std::max(0.0, object.at_border_s + (inside == object.anchor_cell ? -1 : 1) * view_->seconds);
+    if (best.value <= kBetterPlace * object.strength) {
+      other = object.at_border_s > kPatience_s ? inside : object.anchor_cell;
+      patience = 0;
+    }
     if (other == object.anchor_cell) {
       object.other_anchor_s = 0;
       return object.anchor_cell;
@@ -302,7 +308,7 @@ int AttentionOrder::settle_anchor(TrackedObject& object, const ProtoObjects& pro
     }
     move_anchor(object, other, proto_objects);
     object.anchor_cell = other;
-    object.other_anchor_s = 0;
+    object.other_anchor_s = object.at_border_s = 0;
   }
   return object.anchor_cell >= 0 ? object.anchor_cell : other;
 }

@@ -27,8 +27,9 @@ namespace saccade {
 /// came into view. A part of a thing is no member: another object is reported for it.
 ///
 /// An object is as strong as the cells around its anchor. The anchor moves only if another place of the
-/// object is better by kBetterPlace for kPatience_s, or if its own is hidden or at the object's border for so
-/// long, or out of view; one that went out of view and is seen again within kAway_s goes back.
+/// object is better by kBetterPlace for kPatience_s, or if its own is hidden for so long, or out of view; one
+/// that went out of view and is seen again within kAway_s goes back. It also moves once it has been at the
+/// object's border for kPatience_s longer than inside, since noise moves the border from frame to frame.
 /// Without memory (the first frame, or after a cut) the order, the cells and the points are those of
 /// ProtoSelector. Keeps its memory between frames. Thread safety: one call at a time per object.
 class AttentionOrder {

@@ -170,27 +170,50 @@ const std::vector<int>& AttentionTracker::cells_of_thing(const TrackedObject& ob
   return thing_cells_;
 }
 
-// The pixel of the object's anchor: the nearest with its depth. Where it is hidden, one of the cell that
-// stands in.
+// The pixel of the object's anchor: the nearest with its depth, rather one that has the object on all four
+// sides, since noise moves the object's border. Where the anchor is hidden, a pixel of the cell that stands
+// in.
 cv::Point AttentionTracker::point_of(const AttentionOrder::View& view, const TrackedObject& object) const {
   const cv::Point3d anchor = view.from_world * object.anchor_mm;
   const Intrinsics& camera = view.frame.intrinsics;
   const cv::Mat1f& depth = view.frame.depth_mm;
-  cv::Point best(-1, -1);
+  cv::Point best(-1, -1), inside(-1, -1);
   if (object.anchor_sight == AnchorSight::visible) {
     constexpr int kReach = 2 * SurfaceGrid::kCellPx;
     const int row = cvRound(camera.fy * anchor.y / anchor.z + camera.cy),
               col = cvRound(camera.fx * anchor.x / anchor.z + camera.cx);
-    int nearest = kReach * kReach + 1;
+    int nearest = kReach * kReach + 1, nearest_inside = nearest;
     for (int r = std::max(0, row - kReach); r <= std::min(depth.rows - 1, row + kReach); ++r)
       for (int c = std::max(0, col - kReach); c <= std::min(depth.cols - 1, col + kReach); ++c) {
         const int away = (r - row) * (r - row) + (c - col) * (c - col);
-        if (away >= nearest || compare_depth(depth(r, c), anchor.z) != Seen::same) continue;
-        nearest = away;
-        best = {c, r};
+        if (away >= nearest_inside || compare_depth(depth(r, c), anchor.z) != Seen::same) continue;
+        if (away < nearest) {
+          nearest = away;
+          best = {c, r};
+        }
+        if (is_inside(view, object, anchor.z, {c, r})) {
+          nearest_inside = away;
+          inside = {c, r};
+        }
       }
   }
+  if (inside.x >= 0 && !view.first) return inside;  // the first frame is that of proto
   return best.x >= 0 ? best : proto_objects_.fixated_pixel(view.saliency, object.point_cell);
+}
+
+// Whether the pixels kInside_px away on all four sides have the depth, and are in cells of the object.
+bool AttentionTracker::is_inside(const AttentionOrder::View& view, const TrackedObject& object,
+                                 double depth_mm, cv::Point pixel) const {
+  const int own = objects_.owner_of(object);
+  const cv::Mat1f& depth = view.frame.depth_mm;
+  const auto is_own = [&](int right, int down) {
+    const int row = pixel.y + down, col = pixel.x + right;
+    if (row < 0 || col < 0 || row >= depth.rows || col >= depth.cols) return false;
+    const int cell = row / SurfaceGrid::kCellPx * view.grid.cols() + col / SurfaceGrid::kCellPx;
+    return memory_.owner()[static_cast<std::size_t>(cell)] == own &&
+           compare_depth(depth(row, col), depth_mm) == Seen::same;
+  };
+  return is_own(-kInside_px, 0) && is_own(kInside_px, 0) && is_own(0, -kInside_px) && is_own(0, kInside_px);
 }
 
 void AttentionTracker::look(std::int64_t time_us, const std::vector<std::size_t>& chosen,

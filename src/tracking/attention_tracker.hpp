@@ -31,6 +31,8 @@ class AttentionTracker {
   /// object does not come and go because its confidence is near the limit.
   static constexpr float kConfidenceMargin = 0.1F;
   static constexpr double kConfidence_s = 2;  ///< time of that mean
+  /// How far a fixation is from the border of its object, where its anchor allows it.
+  static constexpr int kInside_px = 2;
 
   /// fixations: the greatest number per frame. min_confidence: 0..1, objects below it are remembered but not
   /// reported. Throws std::invalid_argument unless there is at least one fixation.
@@ -68,6 +70,8 @@ class AttentionTracker {
   void report(const AttentionOrder::View& view, Attention& attention);
   const std::vector<int>& cells_of_thing(const TrackedObject& object);
   cv::Point point_of(const AttentionOrder::View& view, const TrackedObject& object) const;
+  bool is_inside(const AttentionOrder::View& view, const TrackedObject& object, double depth_mm,
+                 cv::Point pixel) const;
   void look(std::int64_t time_us, const std::vector<std::size_t>& chosen, SequenceState& sequence);
 
   int fixations_ = 1;

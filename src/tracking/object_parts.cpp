@@ -10,6 +10,12 @@ constexpr int kNoSlot = -1;
 
 bool is_seen(const TrackedObject* object) { return object != nullptr && object->sight == Sight::visible; }
 
+// Whether the first is rather reported for a thing than the second. So an older part that comes back, or that
+// was hardly ever chosen, does not take the place of the one that was reported all the time.
+bool comes_before(const TrackedObject& a, const TrackedObject& b) {
+  return a.times_chosen != b.times_chosen ? a.times_chosen > b.times_chosen : a.id < b.id;
+}
+
 }  // namespace
 
 void ObjectParts::find(const SurfaceGrid& grid, const SurfaceSegments& segments, const cv::Mat3b& colour,
@@ -42,9 +48,7 @@ void ObjectParts::find_cells(const SurfaceGrid& grid, const SurfaceSegments& seg
     const TrackedObject& object = objects.slots()[slot];
     if (!object.alive || object.id == 0 || !is_seen(&object) || object.disc) continue;
     for (const int cell : object.cells) {
-      const int segment = segments.of_cell()[at(cell)];
-      if (segment != SurfaceSegments::kNone && !segments.is_supporting_plane(segment))
-        slot_of_[at(cell)] = static_cast<int>(slot);
+      if (segments.is_of_thing(segments.of_cell()[at(cell)])) slot_of_[at(cell)] = static_cast<int>(slot);
     }
   }
 }
@@ -144,7 +148,8 @@ void ObjectParts::note(const TrackedObject& a, const TrackedObject& b) {
     pairs_.push_back({first, second});
 }
 
-// The smaller name goes along the pairs until all that hangs together has it.
+// The name of the object that comes before the others goes along the pairs until all that hangs together has
+// it.
 void ObjectParts::name_things(ObjectMemory& objects) const {
   for (TrackedObject& object : objects.slots()) object.thing = object.id;
   for (bool changed = true; changed;) {
@@ -152,7 +157,8 @@ void ObjectParts::name_things(ObjectMemory& objects) const {
     for (const Pair& pair : pairs_) {
       TrackedObject *a = objects.find(pair.a), *b = objects.find(pair.b);
       if (!is_seen(a) || !is_seen(b) || a->thing == b->thing) continue;
-      a->thing = b->thing = std::min(a->thing, b->thing);
+      const TrackedObject &one = *objects.find(a->thing), &other = *objects.find(b->thing);
+      a->thing = b->thing = comes_before(one, other) ? one.id : other.id;
       changed = true;
     }
   }

@@ -26,8 +26,9 @@ namespace saccade {
 ///    by less than kSameBrightness.
 /// Once an object has been seen in more than kNewFrames frames it is no longer found to be a part, so that
 /// what was reported for a while is not given up. Parts that are not found again for kKeep_s are no longer
-/// parts. All that hangs together so is one thing, and the oldest object in sight is reported for it. Keeps
-/// its memory between frames. Thread safety: one call at a time per object.
+/// parts. All that hangs together so is one thing, and the object in sight that was chosen most often, first
+/// the oldest, is reported for it. Keeps its memory between frames. Thread safety: one call at a time per
+/// object.
 class ObjectParts {
  public:
   static constexpr double kContact = 0.015;

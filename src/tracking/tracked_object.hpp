@@ -38,6 +38,7 @@ struct TrackedObject {
 
   std::int64_t first_seen_us = 0, last_reported_us = 0;
   int frames_seen = 0;
+  int times_chosen = 0;  ///< for itself, not as a part
   int rank = 0;          ///< in the order of attention, 0 = first, as of the last frame
   float strength = 0;    ///< value with which it was last chosen
   float confidence = 0;  ///< as reported; follows its mean only if that differs by a margin
@@ -48,11 +49,11 @@ struct TrackedObject {
   bool appeared = false;    ///< came into a place that was seen without it
 
   // How long something has spoken for a change that is made only if it persists
-  int times_chosen = 0;       ///< of a candidate
   int frames_missed = 0;      ///< of a candidate: in which it was not chosen, in a row
   int frames_empty = 0;       ///< in a row
   double other_shape_s = 0;   ///< the segmentation disagrees with its cells
   double other_anchor_s = 0;  ///< another point of it is better, or its own is hidden
+  double at_border_s = 0;     ///< its anchor is at its border; time inside takes back as much
   double from_home_s = 0;     ///< another point stands in for the one that went out of view
 
   // In the present frame

@@ -106,6 +106,31 @@ TEST(AttentionOrder, AnAnchorThatWasOutOfViewForAMomentIsWhereItWas) {
   }
 }
 
+// In every third frame the block has another row of cells above the most salient one. That takes back the
+// time of one frame at the border, and not all of it.
+TEST(AttentionOrder, AnAnchorLeavesABorderThatNoiseMoves) {
+  for (const bool noisy : {false, true}) {
+    Frame frame;
+    frame.intrinsics = Intrinsics::guess_for({320, 240});
+    FollowedFrames frames(1);
+    std::vector<int> rows;
+    for (int k = 0; k < 60; ++k) {
+      frame.depth_mm = cv::Mat1f(240, 320, 3000.0F);
+      frame.depth_mm(cv::Rect(120, 80, 80, 80)) = 1000;
+      if (noisy && k % 3 == 2) frame.depth_mm(cv::Rect(120, 76, 80, 4)) = 1000;
+      cv::Mat1f map(frame.size(), 0.0F);
+      map(cv::Rect(156, 80, 8, 4)) = 1;
+      const Attention& attention = frames.attend(frame, map);
+      ASSERT_EQ(attention.fixations.size(), 1) << k;
+      rows.push_back(attention.fixations[0].row);
+    }
+    const auto inside = std::find_if(rows.begin(), rows.end(), [](int row) { return row >= 84; });
+    EXPECT_GT(inside - rows.begin(), 15) << noisy;
+    EXPECT_LT(inside - rows.begin(), noisy ? 50 : 20) << noisy;
+    EXPECT_TRUE(std::all_of(inside, rows.end(), [](int row) { return row >= 84; })) << noisy;
+  }
+}
+
 // Blocks before a wall and three fixations; how salient each block is, is given.
 class FullOrder {
  public:

@@ -1,6 +1,7 @@
 #include "tracking/attention_tracker.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <map>
@@ -150,6 +151,40 @@ TEST_F(AttentionTrackerTest, PlacesMoveAwayFromTheBorderOfTheirObject) {
       EXPECT_FALSE(std::ranges::all_of(attention_.fixations, is_inside));
     }
   }
+}
+
+// The map is highest at the outline of each object. The first frame is that of proto.
+TEST_F(AttentionTrackerTest, PointsHaveTheirObjectOnAllFourSides) {
+  watch({.size = {640, 480}}, 5);
+  constexpr int kAway = AttentionTracker::kInside_px;
+  int at_border = 0;
+  for (int k = 0; k < 10; ++k) {
+    frame_ = &scene_->frame(k);
+    cv::Mat1f map(frame_->size(), 0.0F);
+    for (int label = 1; label <= scene_->objects(); ++label) {
+      const cv::Mat1b object = frame_->truth.labels == label;
+      cv::Mat1b middle;
+      cv::erode(object, middle, cv::Mat1b::ones(3, 3));
+      map.setTo(1, object & ~middle);
+    }
+    follower_->start(*frame_);
+    follower_->wait();
+    tracker_->attend(*frame_, map, follower_->surfaces(), follower_->step(), attention_);
+    for (const Fixation& fixation : attention_.fixations) {
+      const std::array<int, 2> rows{fixation.row - kAway, fixation.row + kAway},
+          cols{fixation.col - kAway, fixation.col + kAway};
+      bool inside = true;
+      const int own = attention_.masks(fixation.row, fixation.col);
+      for (int side = 0; side < 2; ++side)
+        inside = inside && attention_.masks(rows[side], fixation.col) == own &&
+                 attention_.masks(fixation.row, cols[side]) == own;
+      if (k == 0)
+        at_border += inside ? 0 : 1;
+      else
+        EXPECT_TRUE(inside) << "id " << fixation.id << " frame " << k;
+    }
+  }
+  EXPECT_GT(at_border, 0);
 }
 
 // The saliency at the first object's point is no measure for the others: the point stays while the map

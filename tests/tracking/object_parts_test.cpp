@@ -164,6 +164,14 @@ TEST_F(ObjectPartsTest, AnotherPartIsReportedWhileTheFirstIsHidden) {
   EXPECT_EQ(thing_of(c), a) << "what is out of sight is not forgotten";
 }
 
+TEST_F(ObjectPartsTest, WhatWasChosenMostOftenIsReported) {
+  const int a = add(0, kWood), b = add(1, kWood), c = add(2, kWood);
+  objects_.find(a)->times_chosen = 3;
+  objects_.find(b)->times_chosen = 40;
+  watch(1);
+  for (const int id : {a, b, c}) EXPECT_EQ(thing_of(id), b);
+}
+
 TEST_F(ObjectPartsTest, ClearBeginsAgain) {
   add(0, kWood);
   const int b = add(1, kWood);
