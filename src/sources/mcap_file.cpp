@@ -11,6 +11,7 @@
 #include "oni/bytes.hpp"
 #include "sources/chunked_bag.hpp"
 #include "sources/decompress.hpp"
+#include "sources/record_cursor.hpp"
 
 namespace saccade {
 namespace {
@@ -22,21 +23,6 @@ constexpr std::size_t kRecordHeader = 9, kMessageFields = 22;
 constexpr std::uint64_t kLargestSmallRecord = 16u << 20;  // of schemas and channels
 
 using Bytes = BagFile::Bytes;
-
-// A string with its length before it.
-std::string take_text(ByteCursor& cursor) {
-  const auto size = cursor.take<std::uint32_t>();
-  const auto text = size ? cursor.take_bytes(*size) : std::nullopt;
-  if (!text) throw std::runtime_error("a record is too short");
-  return {text->begin(), text->end()};
-}
-
-template <typename T>
-T take_field(ByteCursor& cursor) {
-  const auto value = cursor.take<T>();
-  if (!value) throw std::runtime_error("a record is too short");
-  return *value;
-}
 
 std::string plain_type(std::string type) {
   if (const auto msg = type.find("/msg/"); msg != std::string::npos) type.erase(msg, 4);
@@ -93,13 +79,12 @@ class McapFile final : public ChunkedBag {
     constexpr std::size_t kMostHeader = 64;
     constexpr std::uint64_t kMostCompressed = 512u << 20;
     std::array<std::uint8_t, kMostHeader> header{};
-    ByteCursor cursor(std::span<const std::uint8_t>(header).first(file_.read(content, header)));
-    static_cast<void>(take_field<std::uint64_t>(cursor));  // first and last time
-    static_cast<void>(take_field<std::uint64_t>(cursor));
-    const auto size = take_field<std::uint64_t>(cursor);
-    const auto checksum = take_field<std::uint32_t>(cursor);
-    const std::string method = take_text(cursor);
-    const auto compressed = take_field<std::uint64_t>(cursor);
+    RecordCursor cursor(std::span<const std::uint8_t>(header).first(file_.read(content, header)));
+    cursor.skip(2 * sizeof(std::uint64_t));  // first and last time
+    const auto size = cursor.take<std::uint64_t>();
+    const auto checksum = cursor.take<std::uint32_t>();
+    const std::string method = cursor.take_text();
+    const auto compressed = cursor.take<std::uint64_t>();
     const std::uint64_t begin = content + kMostHeader - cursor.rest().size();
     if (compressed > kMostCompressed || begin > file_.size() || compressed > file_.size() - begin)
       throw std::runtime_error("it is longer than the file");
@@ -110,17 +95,17 @@ class McapFile final : public ChunkedBag {
   }
 
   void take_definition(std::uint8_t type, Bytes record) {
-    ByteCursor cursor(record);
-    const auto id = take_field<std::uint16_t>(cursor);
+    RecordCursor cursor(record);
+    const auto id = cursor.take<std::uint16_t>();
     if (type == kMcapSchema) {
-      schemas_[id] = take_text(cursor);
+      schemas_[id] = cursor.take_text();
       return;
     }
     if (channels_.contains(id)) return;  // repeated in each chunk
-    const auto schema = take_field<std::uint16_t>(cursor);
+    const auto schema = cursor.take<std::uint16_t>();
     BagTopic topic;
-    topic.name = take_text(cursor);
-    topic.encoding = take_text(cursor) == "ros1" ? BagEncoding::ros1 : BagEncoding::cdr;
+    topic.name = cursor.take_text();
+    topic.encoding = cursor.take_text() == "ros1" ? BagEncoding::ros1 : BagEncoding::cdr;
     topic.type = plain_type(schemas_[schema]);
     channels_[id] = topics_.size();
     topics_.push_back(std::move(topic));

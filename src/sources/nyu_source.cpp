@@ -10,7 +10,7 @@
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "core/image_size.hpp"
-#include "sources/hdf5_file.hpp"
+#include "sources/hdf5_images.hpp"
 
 namespace saccade {
 namespace fs = std::filesystem;

@@ -14,7 +14,7 @@
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "nyu_writer.hpp"
-#include "sources/hdf5_file.hpp"
+#include "sources/hdf5_images.hpp"
 #include "sources/open_source.hpp"
 #include "tests/support/error_of.hpp"
 #include "tests/support/folder_test.hpp"
