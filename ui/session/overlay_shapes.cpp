@@ -70,10 +70,13 @@ OverlayShapes overlay_shapes(const Computed& computed, const OverlayStyle& style
   if (style.path) add_path(shapes, computed, view, width);
   if (!style.marks) return shapes;
   for (std::size_t i = attention.fixations.size(); i-- > 0;) {
-    const cv::Point2f centre = mark_place(view, computed, i);
+    const auto radius = static_cast<float>(10 * unit);
+    // Whole, so that its number can be read.
+    const cv::Point2f centre =
+        view.inside(mark_place(view, computed, i), static_cast<double>(radius + width));
     const std::string text =
         std::to_string(computed.marks ? attention.fixations[i].id : static_cast<int>(i) + 1);
-    shapes.marks.push_back({centre, static_cast<float>(10 * unit), colour_of(computed, i + 1), text});
+    shapes.marks.push_back({centre, radius, colour_of(computed, i + 1), text});
     if (computed.marks && attention.sequence->gaze == attention.fixations[i].id)
       shapes.rings.push_back({centre, static_cast<float>(16 * unit), 1.6F * width, kRest});
   }

@@ -36,6 +36,14 @@ void PictureView::centre_on(cv::Point2d picture) {
   keep_in_sight();
 }
 
+cv::Point2d PictureView::inside(cv::Point2d point, double margin) const {
+  const cv::Point2d low = to_panel({0, 0}), high = to_panel({picture_.width, picture_.height});
+  const auto along = [&](double place, double from, double to) {
+    return to - from > 2 * margin ? std::clamp(place, from + margin, to - margin) : place;
+  };
+  return {along(point.x, low.x, high.x), along(point.y, low.y, high.y)};
+}
+
 double PictureView::fitting_scale() const {
   return std::min({panel_.width / picture_.width, panel_.height / picture_.height, kLargestZoom});
 }

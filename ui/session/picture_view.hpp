@@ -25,6 +25,9 @@ class PictureView {
 
   double scale() const { return scale_; }  ///< panel pixels per pixel of the picture
   cv::Point2d to_panel(cv::Point2d picture) const { return panel_centre() + (picture - centre_) * scale_; }
+  /// The point of the panel that is nearest to `point` and at least `margin` inside the picture's edges;
+  /// along an axis that has no room for that, where it is.
+  cv::Point2d inside(cv::Point2d point, double margin) const;
   cv::Point2d to_picture(cv::Point2d panel) const { return centre_ + (panel - panel_centre()) / scale_; }
 
  private:

@@ -204,6 +204,26 @@ TEST_F(ShapesTest, OverTimeObjectsHaveTheirNumbersAndTheGazeARing) {
   EXPECT_EQ(shapes.lines.front().points.back(), shapes.rings.front().centre);
 }
 
+TEST_F(ShapesTest, MarksAtTheEdgeOfThePictureAreWhole) {
+  computed_.result.attention.fixations[0].row = 0;
+  computed_.result.attention.fixations[1].col = 63;
+  for (const double unit : {1.0, 2.0})
+    for (const OverlayShapes::Mark& mark : overlay_shapes(computed_, {}, view_, unit).marks) {
+      const cv::Point2f low = view_.to_panel({0, 0}), high = view_.to_panel({64, 48});
+      EXPECT_GE(std::min(mark.centre.x - low.x, mark.centre.y - low.y), mark.radius);
+      EXPECT_GE(std::min(high.x - mark.centre.x, high.y - mark.centre.y), mark.radius);
+    }
+}
+
+TEST(PictureView, WhatIsInsideStaysWhereItIs) {
+  PictureView view;
+  view.layout({1280, 960}, {640, 480});
+  EXPECT_EQ(view.inside({300, 200}, 10), cv::Point2d(300, 200));
+  EXPECT_EQ(view.inside({-50, 955}, 10), cv::Point2d(10, 950));
+  view.layout({8, 6}, {640, 480});
+  EXPECT_EQ(view.inside({0, 0}, 10), cv::Point2d(0, 0)) << "there is no room";
+}
+
 TEST_F(ShapesTest, AMarkIsFoundUnderTheMouse) {
   OverlayShapes shapes = overlay_shapes(computed_, {}, view_, 1);
   EXPECT_EQ(mark_under(shapes, {41, 21}), 0);
