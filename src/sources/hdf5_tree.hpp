@@ -13,7 +13,7 @@ namespace saccade {
 
 /// A node of a B-tree of a file: for each child a key of the given size, then its address.
 struct Hdf5TreeNode {
-  static constexpr int kMostLevels = 32;
+  static constexpr int kMostLevels = 32;  ///< of a tree; a damaged one could go round in circles
 
   int level = 0;
   Hdf5File::Bytes entries;
