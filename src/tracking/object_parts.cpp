@@ -20,13 +20,14 @@ bool comes_before(const TrackedObject& a, const TrackedObject& b) {
 
 void ObjectParts::find(const SurfaceGrid& grid, const SurfaceSegments& segments, const cv::Mat3b& colour,
                        double seconds, ObjectMemory& objects) {
+  name_things(objects);
   // Where one of the two is out of sight, nothing is learnt of them.
   for (Pair& pair : pairs_)
     if (is_seen(objects.find(pair.a)) && is_seen(objects.find(pair.b))) pair.left_s -= seconds;
   const auto& slots = objects.slots();
   find_cells(grid, segments, objects);
   for (const HeldObjects::Pair& pair : held_.find(grid, slot_of_, static_cast<int>(slots.size())))
-    note(slots[at(pair.held)], slots[at(pair.holder)]);
+    note(slots[at(pair.held)], slots[at(pair.holder)], objects);
   if (!colour.empty()) {
     looks_.assign(slots.size(), {});
     for (std::size_t slot = 0; slot < slots.size(); ++slot)
@@ -117,35 +118,52 @@ void ObjectParts::count_contacts(const SurfaceGrid& grid) {
     }
 }
 
-bool ObjectParts::cling(std::size_t a, std::size_t b) const {
+// tolerance: of the limits of colour.
+bool ObjectParts::cling(std::size_t a, std::size_t b, double tolerance) const {
   const int links = links_[a * looks_.size() + b];
   const Look &one = looks_[a], &other = looks_[b];
-  return links > 0 && links >= kContact * std::min(one.outline, other.outline) && have_one_colour(one, other);
+  return links > 0 && links >= kContact * std::min(one.outline, other.outline) &&
+         have_one_colour(one, other, tolerance);
 }
 
-bool ObjectParts::have_one_colour(const Look& one, const Look& other) {
-  if (one.own && other.own && static_cast<double>(distance(*one.own, *other.own)) < kSameOwnColour &&
+bool ObjectParts::have_one_colour(const Look& one, const Look& other, double tolerance) {
+  if (one.own && other.own &&
+      static_cast<double>(distance(*one.own, *other.own)) < tolerance * kSameOwnColour &&
       std::abs(one.own_log_brightness - other.own_log_brightness) < kSameBrightness)
     return true;
-  return std::hypot(cv::norm(one.colour - other.colour), one.spread - other.spread) < kSameColour &&
+  return std::hypot(cv::norm(one.colour - other.colour), one.spread - other.spread) <
+             tolerance * kSameColour &&
          std::abs(one.log_brightness - other.log_brightness) < kSameBrightness;
 }
 
-void ObjectParts::pair_up(const ObjectMemory& objects) {
+void ObjectParts::pair_up(ObjectMemory& objects) {
   const auto& slots = objects.slots();
   for (std::size_t a = 0; a < slots.size(); ++a)
     for (std::size_t b = a + 1; b < slots.size(); ++b)
-      if (cling(a, b)) note(slots[a], slots[b]);
+      if (cling(a, b, 1) && (!bridge(slots[a], slots[b], objects) || cling(a, b, kBridge)))
+        note(slots[a], slots[b], objects);
 }
 
-void ObjectParts::note(const TrackedObject& a, const TrackedObject& b) {
-  const int first = std::min(a.id, b.id), second = std::max(a.id, b.id);
-  const auto known = std::find_if(pairs_.begin(), pairs_.end(),
-                                  [&](const Pair& pair) { return pair.a == first && pair.b == second; });
-  if (known != pairs_.end())
+// Whether two things become one that were both known for a while, so that one of them is given up.
+bool ObjectParts::bridge(const TrackedObject& a, const TrackedObject& b, ObjectMemory& objects) {
+  const auto is_old = [&](int thing) { return objects.find(thing)->frames_seen > kNewFrames; };
+  return a.thing != b.thing && is_old(a.thing) && is_old(b.thing) && find_pair(a, b) == nullptr;
+}
+
+ObjectParts::Pair* ObjectParts::find_pair(const TrackedObject& a, const TrackedObject& b) {
+  const auto pair = std::find_if(pairs_.begin(), pairs_.end(), [&](const Pair& known) {
+    return known.a == std::min(a.id, b.id) && known.b == std::max(a.id, b.id);
+  });
+  return pair == pairs_.end() ? nullptr : &*pair;
+}
+
+void ObjectParts::note(const TrackedObject& a, const TrackedObject& b, ObjectMemory& objects) {
+  if (Pair* known = find_pair(a, b)) {
     known->left_s = kKeep_s;
-  else if (std::min(a.frames_seen, b.frames_seen) <= kNewFrames)
-    pairs_.push_back({first, second});
+  } else if (std::min(a.frames_seen, b.frames_seen) <= kNewFrames) {
+    pairs_.push_back({std::min(a.id, b.id), std::max(a.id, b.id)});
+    name_things(objects);
+  }
 }
 
 // The name of the object that comes before the others goes along the pairs until all that hangs together has

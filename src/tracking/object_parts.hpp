@@ -25,10 +25,11 @@ namespace saccade {
 ///    less than kSameOwnColour, unless one was cut out by its colour. The logarithm of the brightness differs
 ///    by less than kSameBrightness.
 /// Once an object has been seen in more than kNewFrames frames it is no longer found to be a part, so that
-/// what was reported for a while is not given up. Parts that are not found again for kKeep_s are no longer
-/// parts. All that hangs together so is one thing, and the object in sight that was chosen most often, first
-/// the oldest, is reported for it. Keeps its memory between frames. Thread safety: one call at a time per
-/// object.
+/// what was reported for a while is not given up. For the same reason, something new joins two things whose
+/// reported objects are older than that only if its colour is surer: kBridge of the limits. Parts that are
+/// not found again for kKeep_s are no longer parts. All that hangs together so is one thing, and the object
+/// in sight that was chosen most often, first the oldest, is reported for it. Keeps its memory between
+/// frames. Thread safety: one call at a time per object.
 class ObjectParts {
  public:
   static constexpr double kContact = 0.015;
@@ -36,6 +37,7 @@ class ObjectParts {
   static constexpr double kOwnShare = 0.65, kSameOwnColour = 0.03;
   static constexpr double kSameBrightness = 1;
   static constexpr int kNewFrames = 6;
+  static constexpr double kBridge = 0.5;
   static constexpr double kKeep_s = 3;
 
   /// Forgets what has been seen.
@@ -67,10 +69,12 @@ class ObjectParts {
                const TrackedObject& object, int slot);
   double log_brightness_of(const cv::Vec2f& own) const;
   void count_contacts(const SurfaceGrid& grid);
-  bool cling(std::size_t a, std::size_t b) const;
-  static bool have_one_colour(const Look& one, const Look& other);
-  void pair_up(const ObjectMemory& objects);
-  void note(const TrackedObject& a, const TrackedObject& b);
+  bool cling(std::size_t a, std::size_t b, double tolerance) const;
+  static bool have_one_colour(const Look& one, const Look& other, double tolerance);
+  void pair_up(ObjectMemory& objects);
+  bool bridge(const TrackedObject& a, const TrackedObject& b, ObjectMemory& objects);
+  Pair* find_pair(const TrackedObject& a, const TrackedObject& b);
+  void note(const TrackedObject& a, const TrackedObject& b, ObjectMemory& objects);
   void name_things(ObjectMemory& objects) const;
 
   std::vector<Pair> pairs_;

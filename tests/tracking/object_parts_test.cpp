@@ -142,6 +142,23 @@ TEST_F(ObjectPartsTest, WhatWasReportedForAWhileStaysItself) {
   EXPECT_EQ(thing_of(a), a);
 }
 
+// From kWood, kOak is .033 away in chromaticity and kPine .017; kSameColour is .045.
+TEST_F(ObjectPartsTest, WhatIsNewJoinsTwoOldThingsOnlyIfTheColoursAreSurelyTheSame) {
+  const cv::Vec3b kOak(68, 90, 126), kPine(64, 90, 128);
+  for (const bool surely : {false, true}) {
+    for (const bool old : {false, true}) {
+      objects_.clear();
+      parts_.clear();
+      const int a = add(0, kWood), c = add(2, surely ? kPine : kOak);
+      if (old) watch(ObjectParts::kNewFrames);
+      const int b = add(1, kWood);
+      watch(3);
+      EXPECT_EQ(thing_of(b), a);
+      EXPECT_EQ(thing_of(c), surely || !old ? a : c) << surely << old;
+    }
+  }
+}
+
 TEST_F(ObjectPartsTest, PartsThatComeApartAreThingsAfterAWhile) {
   const int a = add(0, kWood), b = add(1, kWood);
   watch(1);
