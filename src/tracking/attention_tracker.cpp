@@ -191,13 +191,13 @@ cv::Point AttentionTracker::point_of(const AttentionOrder::View& view, const Tra
           nearest = away;
           best = {c, r};
         }
-        if (is_inside(view, object, anchor.z, {c, r})) {
+        if (!view.first && is_inside(view, object, anchor.z, {c, r})) {  // the first frame is that of proto
           nearest_inside = away;
           inside = {c, r};
         }
       }
   }
-  if (inside.x >= 0 && !view.first) return inside;  // the first frame is that of proto
+  if (inside.x >= 0) return inside;
   return best.x >= 0 ? best : proto_objects_.fixated_pixel(view.saliency, object.point_cell);
 }
 

@@ -48,9 +48,8 @@ void ObjectParts::find_cells(const SurfaceGrid& grid, const SurfaceSegments& seg
   for (std::size_t slot = 0; slot < objects.slots().size(); ++slot) {
     const TrackedObject& object = objects.slots()[slot];
     if (!object.alive || object.id == 0 || !is_seen(&object) || object.disc) continue;
-    for (const int cell : object.cells) {
+    for (const int cell : object.cells)
       if (segments.is_of_thing(segments.of_cell()[at(cell)])) slot_of_[at(cell)] = static_cast<int>(slot);
-    }
   }
 }
 
